@@ -24,6 +24,7 @@
 #include "lib/plan/partition.h"
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
+#include "tests/support/test_scene.h"
 
 namespace starfocus::engine_constants_slow_test {
 namespace {
@@ -46,10 +47,10 @@ TEST_CASE("constants: the numbers of views follow equation (9)") {
   const auto jump = [](int n) {
     return Cross(0.1, 128, 1e-9, [&](double r) { return ViewsByPaper(r) - n - 0.5; });
   };
-  CHECK_MESSAGE(4 / jump(4) == doctest::Approx(0.787).epsilon(1e-6),
-                "the under-sampling ratio of Fig. 6 and (9) is not 0.787");
-  CHECK_MESSAGE(80 / jump(80) == doctest::Approx(0.787).epsilon(1e-6),
-                "the under-sampling ratio of Fig. 6 and (9) is not 0.787");
+  for (const int n : {4, 80}) {
+    CHECK_MESSAGE(n / jump(n) == doctest::Approx(0.787).epsilon(1e-6),
+                  "the under-sampling ratio of Fig. 6 and (9) is not 0.787");
+  }
   for (int n = 1; n <= 3; ++n) {
     CHECK_MESSAGE(jump(n) == doctest::Approx(n).epsilon(1e-6),
                   "below r = 4, N by (9) is not the ceiling of r");
@@ -124,6 +125,7 @@ TEST_CASE("constants: the layer filters have beta_D of Table I at r = 3 and the 
         "G_D, which affects Table I, Fig. 8, (12) and the PSFs of the layers");
   check(kUpFilter, std::round(100 * BetaWithoutPi()) / 100, 2,
         "G_U, which affects Table I, Fig. 8 and the PSFs of the layers");
+  CHECK(2 * GainAtPi(HalfBand(kBetaUp)) == doctest::Approx(-2e-4).epsilon(0.02));
   CHECK_MESSAGE(kBetaDown == doctest::Approx(OptimiseOnGrid(3).filters.beta_down).epsilon(1e-9),
                 "kBetaDown of examples/lab/analysis differs from beta_D of Table I");
 }
@@ -132,16 +134,16 @@ TEST_CASE("constants: layers begin at the radii of equation (12), or at 7 and 24
   CHECK_MESSAGE(OptimiseOnGrid(2.5).error > kThreshold,
                 "by Table I, layer 1 could begin at r = 2.5");
   CHECK_MESSAGE(OptimiseOnGrid(3).error < kThreshold, "by Table I, layer 1 must begin above r = 3");
+  const auto check = [](const char* rule, int layer, double first, const auto& layer_of) {
+    CAPTURES(rule, layer);
+    CHECK_MESSAGE(layer_of(first) == layer, "the layer begins above " << first);
+    CHECK_MESSAGE(layer_of(std::nextafter(first, 0.0)) == layer - 1,
+                  "the layer begins below " << first);
+  };
   for (const int layer : {1, 2}) {
-    const double paper = layer == 1 ? 3 : 6, subapertures = layer == 1 ? 7 : 24;
-    CAPTURE(layer);
-    CHECK_MESSAGE(LayerByPaper(paper) == layer, "LayerByPaper: the layer begins above " << paper);
-    CHECK_MESSAGE(LayerByPaper(std::nextafter(paper, 0.0)) == layer - 1,
-                  "LayerByPaper: the layer begins below " << paper);
-    CHECK_MESSAGE(LayerBySubaperture(subapertures, false) == layer,
-                  "LayerBySubaperture: the layer begins above " << subapertures);
-    CHECK_MESSAGE(LayerBySubaperture(std::nextafter(subapertures, 0.0), false) == layer - 1,
-                  "LayerBySubaperture: the layer begins below " << subapertures);
+    check("LayerByPaper", layer, layer == 1 ? 3 : 6, [](double r) { return LayerByPaper(r); });
+    check("LayerBySubaperture", layer, layer == 1 ? 7 : 24,
+          [](double r) { return LayerBySubaperture(r, false); });
   }
 }
 
@@ -164,9 +166,7 @@ void CheckEngine(starfocus_renderer renderer, int layer, int least, int most) {
   for (int k = 8 * least; k <= 8 * most; k = k < 64 ? k + 1 : k + 13) {
     for (const int sign : {1, -1}) {
       const double r = sign * k / 8.0;
-      CAPTURE(r);
-      CAPTURE(renderer);
-      CAPTURE(layer);
+      CAPTURES(r, renderer, layer);
       EngineStep step;
       REQUIRE(MeasureStep({r, std::fabs(r), STARFOCUS_MODE_BLOCK, renderer, layer}, &step) ==
               STARFOCUS_OK);
@@ -361,17 +361,16 @@ TEST_CASE("constants: PredictGather counts at least as many taps as the PSF has"
 }
 
 TEST_CASE("constants: with one N per picture, the PSF equals the prediction of the analysis") {
-  for (const double r : {0.0, 0.5, 3.25, 11.0, 24.5}) {
-    EngineStep step;
-    REQUIRE(MeasureStep({r, 40, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_LINE_SCAN, 0}, &step) ==
-            STARFOCUS_OK);
-    CHECK(step.n == ViewsByPaper(40));
-    CHECK(step.apart <= kExplained[0]);
-    REQUIRE(MeasureStep({r, 40, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_SLICES, 0}, &step) ==
-            STARFOCUS_OK);
-    CHECK(step.n == ViewsBySubaperture(40));
-    CHECK(step.apart <= kExplained[0]);
-  }
+  const auto check = [](starfocus_renderer renderer, int n) {
+    for (const double r : {0.0, 0.5, 3.25, 11.0, 24.5}) {
+      EngineStep step;
+      REQUIRE(MeasureStep({r, 40, STARFOCUS_MODE_FRAME, renderer, 0}, &step) == STARFOCUS_OK);
+      CHECK(step.n == n);
+      CHECK(step.apart <= kExplained[0]);
+    }
+  };
+  check(STARFOCUS_RENDERER_LINE_SCAN, ViewsByPaper(40));
+  check(STARFOCUS_RENDERER_SLICES, ViewsBySubaperture(40));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "examples/lab/analysis/subaperture_rule.h"
 #include "examples/lab/analysis/subsampled.h"
 #include "lib/optics/rules.h"
+#include "tests/support/test_scene.h"
 
 namespace starfocus::opening_rules_slow_test {
 namespace {
@@ -37,7 +38,7 @@ TEST_CASE(
     "openings: at its first radius, layer 1 has at most the error of a fall-off lens at r = 7") {
   const double fall_off = SubsampledError(7, {1.28, kDefaultTheta});
   for (const Asked& asked : kAsked) {
-    CAPTURE(asked.name);
+    CAPTURES(asked.name);
     const int first =
         FirstRadius([&](double r) { return LayerBySubaperture(r, true, asked.demand); });
     CHECK(LayerError(first, asked.opening) <= fall_off);
@@ -51,7 +52,7 @@ TEST_CASE(
 
 TEST_CASE("openings: errors meet the threshold, or a quarter of the threshold if N is increased") {
   for (const Asked& asked : kAsked) {
-    CAPTURE(asked.name);
+    CAPTURES(asked.name);
     double worst = 0, beyond = 0;
     for (double r = 1.5; r <= 34; r += 0.5) {
       const int n = ViewsBySubaperture(r, asked.demand);
@@ -60,8 +61,7 @@ TEST_CASE("openings: errors meet the threshold, or a quarter of the threshold if
       worst = std::max(worst, error);
       if (r > 5) beyond = std::max(beyond, error);
     }
-    CAPTURE(worst);
-    CAPTURE(beyond);
+    CAPTURES(worst, beyond);
     CHECK(worst <= kThreshold);
     if (asked.demand == Demand::kDisc) continue;
     CHECK(beyond <= kThreshold / 4);

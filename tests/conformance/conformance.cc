@@ -266,23 +266,19 @@ test::Scene MakeScene(int width, int height, int views, const Range& range, Dept
 }
 
 std::string Trial::Text() const {
-  char text[600];
-  std::snprintf(text, sizeof(text),
-                "%dx%d, %d views, mode %d, rule %d, disparity [%.9g, %.9g], focus %.9g + %.9g "
-                "- %.9g, aperture %.9g, block %d, layers %d, theta %.9g, n_scale %.9g, gather %d, "
-                "block cost %u, transfer %d, highlights %.9g, %s",
-                scene.width, scene.height, scene.views(), params.study.mode, params.study.renderer,
-                double{scene.disparity_min}, double{scene.disparity_max}, params.focus,
-                params.focus_nearer, params.focus_farther, params.aperture, config.superblock,
-                config.tuning.max_layer, params.theta, config.tuning.n_scale, config.tuning.gather,
-                config.tuning.timing.block, config.transfer, double{config.highlights},
-                test::ShapeText(params).c_str());
-  std::string all = text;
-  for (const starfocus_position& at : scene.positions) {
-    std::snprintf(text, sizeof(text), ", view (%.9g, %.9g)", at.u, at.v);
-    all += text;
-  }
-  return all;
+  std::string text =
+      "width, height, views, mode, renderer, nearest and farthest disparity, focus, nearer, "
+      "farther, aperture, superblock, max_layer, theta, n_scale, gather, block cost, transfer, "
+      "highlights: " +
+      test::Listed(scene.width, scene.height, scene.views(), params.study.mode,
+                   params.study.renderer, scene.disparity_min, scene.disparity_max, params.focus,
+                   params.focus_nearer, params.focus_farther, params.aperture, config.superblock,
+                   config.tuning.max_layer, params.theta, config.tuning.n_scale,
+                   config.tuning.gather, config.tuning.timing.block, config.transfer,
+                   config.highlights) +
+      test::ShapeText(params);
+  for (const starfocus_position& at : scene.positions) text += ", view " + test::Listed(at.u, at.v);
+  return text;
 }
 
 Trial MakeTrial(const test::Scene& scene, double focus, starfocus_mode mode,

@@ -131,6 +131,11 @@ using Position = std::pair<int, int>;
 // Returns the colour at (x, y) of the layer in the captured view at the position `view`.
 Colour Read(const LightField& field, int layer, const Position& view, double x, double y);
 
+// Returns the colour of the point with `disparity` that the centre view shows at (x, y) of the
+// layer, in the captured view at the position `view`.
+Colour ReadMoved(const LightField& field, int layer, const Position& view, int x, int y,
+                 int disparity);
+
 // Returns the captured views that see behind depth edges on a side, at most two. The views lie
 // within 45 degrees of the direction of the side. If no view is within 45 degrees, views within 83
 // degrees (tangent 8) are used. The best view has the largest value of twice its distance towards

@@ -95,13 +95,11 @@ inline Psf Integrals(double r, const ApertureShape& opening) {
   Psf psf;
   psf.size = int(std::ceil(r + 0.5));
   double sum = 0;
-  for (int m = -psf.size; m <= psf.size; ++m) {
-    for (int n = -psf.size; n <= psf.size; ++n) {
-      psf.weights.push_back(
-          LightOf(opening, (n - 0.5) / r, (n + 0.5) / r, (m - 0.5) / r, (m + 0.5) / r));
-      sum += psf.weights.back();
-    }
-  }
+  ForEachAround(psf.size, [&](int n, int m) {
+    psf.weights.push_back(
+        LightOf(opening, (n - 0.5) / r, (n + 0.5) / r, (m - 0.5) / r, (m + 0.5) / r));
+    sum += psf.weights.back();
+  });
   for (double& weight : psf.weights) weight /= sum;
   return psf;
 }
@@ -109,9 +107,7 @@ inline Psf Integrals(double r, const ApertureShape& opening) {
 // Returns the mean of the variances of a PSF along both axes.
 inline double Variance(const Psf& psf) {
   double squares = 0;
-  for (int m = -psf.size; m <= psf.size; ++m) {
-    for (int n = -psf.size; n <= psf.size; ++n) squares += psf.At(n, m) * (n * n + m * m);
-  }
+  ForEachAround(psf.size, [&](int n, int m) { squares += psf.At(n, m) * (n * n + m * m); });
   return squares / 2;
 }
 

@@ -187,62 +187,45 @@ class FarPyramid {
  public:
   FarPyramid(int columns, int rows) {
     for (int level = 0; level <= kLastLevel; ++level) {
-      const int side = kTile >> level, width = (columns + 2) * side, height = (rows + 2) * side;
-      levels_.push_back(
-          {side, width, height, std::vector<FarLight>(size_t(width) * size_t(height))});
+      const int side = kTile >> level;
+      levels_.emplace_back(side, side, (columns + 2) * side, (rows + 2) * side);
     }
   }
 
-  FarLight& Pixel(int x, int y) { return At(0, x, y); }
+  FarLight& Pixel(int x, int y) { return levels_[0].At(x, y); }
 
   // Averages cells into cells of twice their side, and fills cells without known light.
   void Fill() {
-    for (int level = 1; level <= kLastLevel; ++level) {
-      const Level& plane = levels_[size_t(level)];
-      for (int y = -plane.margin; y < plane.height - plane.margin; ++y) {
-        for (int x = -plane.margin; x < plane.width - plane.margin; ++x) {
-          const std::vector<FarLight> below = {
-              At(level - 1, 2 * x, 2 * y), At(level - 1, 2 * x + 1, 2 * y),
-              At(level - 1, 2 * x, 2 * y + 1), At(level - 1, 2 * x + 1, 2 * y + 1)};
-          FarLight& cell = At(level, x, y) = MeanOf(below, {1, 1, 1, 1}, Farthest(below));
-          cell.known = std::min(cell.known, 1.0);
-        }
-      }
+    for (size_t level = 1; level <= kLastLevel; ++level) {
+      const Level& finer = levels_[level - 1];
+      levels_[level].ForEach([&](int x, int y) {
+        const std::vector<FarLight> below = {finer.At(2 * x, 2 * y), finer.At(2 * x + 1, 2 * y),
+                                             finer.At(2 * x, 2 * y + 1),
+                                             finer.At(2 * x + 1, 2 * y + 1)};
+        FarLight& cell = levels_[level].At(x, y) = MeanOf(below, {1, 1, 1, 1}, Farthest(below));
+        cell.known = std::min(cell.known, 1.0);
+      });
     }
     filled_ = levels_;
     for (int level = kLastLevel - 1; level > 0; --level) {
       Level& plane = filled_[size_t(level)];
-      for (size_t n = 0; n < plane.cells.size(); ++n) {
-        const int x = int(n) % plane.width - plane.margin, y = int(n) / plane.width - plane.margin;
-        FarLight& cell = plane.cells[n];
+      plane.ForEach([&](int x, int y) {
+        FarLight& cell = plane.At(x, y);
         const double disparity = cell.known > 0 ? cell.disparity : Farthest(Above(level, x, y));
         cell = Pushed(level, x, y, cell, disparity);
-      }
+      });
     }
   }
 
   // Returns the light of a pixel. Where the light of the pixel is not known, the light of the
   // larger cells around the pixel is used.
   FarLight Filled(int x, int y) const {
-    const FarLight cell = Get(levels_, 0, x, y);
+    const FarLight& cell = levels_[0].At(x, y);
     return Pushed(0, x, y, cell, cell.disparity);
   }
 
  private:
-  struct Level {
-    int margin, width, height;
-    std::vector<FarLight> cells;
-  };
-  FarLight& At(int level, int x, int y) {
-    Level& plane = levels_[size_t(level)];
-    return plane.cells[size_t(y + plane.margin) * size_t(plane.width) + size_t(x + plane.margin)];
-  }
-  FarLight Get(const std::vector<Level>& levels, int level, int x, int y) const {
-    const Level& plane = levels[size_t(level)];
-    const int column = x + plane.margin, row = y + plane.margin;
-    if (column < 0 || column >= plane.width || row < 0 || row >= plane.height) return {};
-    return plane.cells[size_t(row) * size_t(plane.width) + size_t(column)];
-  }
+  using Level = Grid<FarLight>;
 
   FarLight Pushed(int level, int x, int y, FarLight cell, double disparity) const {
     if (cell.known >= 1) return cell;
@@ -260,8 +243,11 @@ class FarPyramid {
     const int column = int(std::floor(x / 2.0)), row = int(std::floor(y / 2.0));
     const int beside = x == 2 * column ? column - 1 : column + 1;
     const int next = y == 2 * row ? row - 1 : row + 1;
-    return {Get(filled_, level + 1, column, row), Get(filled_, level + 1, beside, row),
-            Get(filled_, level + 1, column, next), Get(filled_, level + 1, beside, next)};
+    const Level& coarser = filled_[size_t(level + 1)];
+    const auto get = [&](int u, int v) {
+      return coarser.Inside(u, v) ? coarser.At(u, v) : FarLight{};
+    };
+    return {get(column, row), get(beside, row), get(column, next), get(beside, next)};
   }
 
   std::vector<Level> levels_, filled_;
@@ -352,16 +338,14 @@ class Parter {
     ForEachPixel(columns_, rows_, [&](int column, int row) {
       int low = map_.Disparity(column * kTile, row * kTile), high = low;
       int beside = 0, strands = 0;
-      for (int y = -1; y <= kTile; ++y) {
-        for (int x = -1; x <= kTile; ++x) {
-          const bool inside = x >= 0 && x < kTile && y >= 0 && y < kTile;
-          const int left = column * kTile + x, top = row * kTile + y;
-          low = std::min(low, map_.Disparity(left, top));
-          high = std::max(high, map_.Disparity(left, top));
-          beside += inside && map_.IsBesideNearer(left, top) ? 1 : 0;
-          strands += inside && map_.IsStrand(left, top) ? 1 : 0;
-        }
-      }
+      ForEachIn(-1, -1, kTile + 1, kTile + 1, [&](int x, int y) {
+        const bool inside = x >= 0 && x < kTile && y >= 0 && y < kTile;
+        const int left = column * kTile + x, top = row * kTile + y;
+        low = std::min(low, map_.Disparity(left, top));
+        high = std::max(high, map_.Disparity(left, top));
+        beside += inside && map_.IsBesideNearer(left, top) ? 1 : 0;
+        strands += inside && map_.IsStrand(left, top) ? 1 : 0;
+      });
       const bool thin = beside >= kLeastRagged && strands >= kLeastStrands;
       if (high - low > kThinEdge && (!given_.empty() || thin)) ragged_.insert({column, row});
     });
@@ -540,9 +524,7 @@ class Parter {
     for (double& light : sum) light *= known;
     for (const Position& view : views) {
       const double weight = EighthPower(1 - CoveredIn(view, x, y));
-      const int far = int(pixel.far);
-      const Colour light =
-          Read(field_, 0, view, x - Moved(view.first, far, 0), y - Moved(view.second, far, 0));
+      const Colour light = ReadMoved(field_, 0, view, x, y, int(pixel.far));
       for (size_t c = 0; c < 3; ++c) sum[c] += weight * light[c];
       known += weight;
     }

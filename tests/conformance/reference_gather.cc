@@ -126,12 +126,10 @@ class Gather {
     Picture to(width, height);
     ForEachPixel(width, height, [&](int x, int y) {
       Colour& sum = to.colours[to.At(x, y)];
-      for (int m = -kernel.size; m <= kernel.size; ++m) {
-        for (int n = -kernel.size; n <= kernel.size; ++n) {
-          const size_t at = extended.At(x + n + border, y + m + border);
-          for (size_t c = 0; c < 3; ++c) sum[c] += kernel.At(n, m) * extended.colours[at][c];
-        }
-      }
+      ForEachAround(kernel.size, [&](int n, int m) {
+        const size_t at = extended.At(x + n + border, y + m + border);
+        for (size_t c = 0; c < 3; ++c) sum[c] += kernel.At(n, m) * extended.colours[at][c];
+      });
     });
     return to;
   }

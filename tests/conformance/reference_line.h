@@ -156,21 +156,46 @@ inline int64_t Rounded(int64_t value, int bits) {
 
 inline int RoundedTo64(double value) { return static_cast<int>(std::floor(value * 64 + 0.5)); }
 
+// Calls visit(x, y) for each pixel from (left, top) to before (right, bottom), row by row.
+template <class Visit>
+void ForEachIn(int left, int top, int right, int bottom, const Visit& visit) {
+  for (int y = top; y < bottom; ++y) {
+    for (int x = left; x < right; ++x) visit(x, y);
+  }
+}
+
 // Calls visit(x, y) for each pixel of a rectangle, row by row.
 template <class Visit>
 void ForEachPixel(int width, int height, const Visit& visit) {
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) visit(x, y);
-  }
+  ForEachIn(0, 0, width, height, visit);
 }
 
 // Calls visit(dx, dy) for each offset of up to `reach` pixels along both axes, row by row.
 template <class Visit>
 void ForEachAround(int reach, const Visit& visit) {
-  for (int dy = -reach; dy <= reach; ++dy) {
-    for (int dx = -reach; dx <= reach; ++dx) visit(dx, dy);
-  }
+  ForEachIn(-reach, -reach, reach + 1, reach + 1, visit);
 }
+
+// Values of a rectangle that begins `left` columns before and `top` rows above (0, 0).
+template <class T>
+struct Grid {
+  int left, top, width, height;
+  std::vector<T> values;
+
+  Grid(int l, int t, int w, int h)
+      : left(l), top(t), width(w), height(h), values(size_t(w) * size_t(h), T{}) {}
+
+  bool Inside(int x, int y) const {
+    return x >= -left && x < width - left && y >= -top && y < height - top;
+  }
+  size_t Index(int x, int y) const { return size_t(y + top) * size_t(width) + size_t(x + left); }
+  T& At(int x, int y) { return values[Index(x, y)]; }
+  const T& At(int x, int y) const { return values[Index(x, y)]; }
+  template <class Visit>
+  void ForEach(const Visit& visit) const {
+    ForEachIn(-left, -top, width - left, height - top, visit);
+  }
+};
 
 // Picture of a rendered or captured view; the disparities, in 1/64 pixel, are 0 if the view has no
 // map.
@@ -235,6 +260,13 @@ struct Lens {
   // Returns true if view k is at most half a unit from the centre, where a captured view may exist.
   bool Half(int k) const { return 2 * k * radius <= n; }
   bool Contains(int i, int j) const { return i * i + j * j <= most; }
+  // Calls visit(i, j) for each view of the lens, row by row.
+  template <class Visit>
+  void ForEachView(const Visit& visit) const {
+    ForEachAround(n, [&](int i, int j) {
+      if (Contains(i, j)) visit(i, j);
+    });
+  }
   double Density(int i, int j) const {
     if (n == 0) return 1;
     const double passing = opening.cats_eye > 0 ? opening.Passing(i, j, Radius()) : 1;

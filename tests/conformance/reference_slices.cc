@@ -112,22 +112,7 @@ using Light = std::array<double, 4>;
 
 // Pixels of a rectangle and its surroundings. Pixel (0, 0) is the first pixel of the refocused
 // rectangle.
-struct Plane {
-  int left, top, width, height;  // `left` and `top` are the numbers of pixels to the left of the
-                                 // rectangle and above it.
-  std::vector<Light> pixels;
-
-  Plane(int l, int t, int w, int h)
-      : left(l), top(t), width(w), height(h), pixels(size_t(w) * size_t(h), Light{}) {}
-
-  bool Inside(int x, int y) const {
-    return x >= -left && x < width - left && y >= -top && y < height - top;
-  }
-  Light& At(int x, int y) { return pixels[size_t(y + top) * size_t(width) + size_t(x + left)]; }
-  const Light& At(int x, int y) const {
-    return pixels[size_t(y + top) * size_t(width) + size_t(x + left)];
-  }
-};
+using Plane = Grid<Light>;
 
 // Widest subaperture, in pixels, that the filter of a view applies while the slice is moved. For
 // wider subapertures, the slice is spread before the slice is moved.
@@ -138,18 +123,16 @@ constexpr double kWidestBox = 3;
 Plane Spread(const Plane& from, double box, int dx, int dy) {
   Plane to = from;
   const int reach = int(std::ceil((box - 1) / 2));
-  for (int y = -from.top; y < from.height - from.top; ++y) {
-    for (int x = -from.left; x < from.width - from.left; ++x) {
-      Light sum = {};
-      for (int k = -reach; k <= reach; ++k) {
-        if (!from.Inside(x + k * dx, y + k * dy)) continue;
-        const double covered = std::min(box / 2, k + 0.5) - std::max(-box / 2, k - 0.5);
-        const Light& light = from.At(x + k * dx, y + k * dy);
-        for (size_t c = 0; c < 4; ++c) sum[c] += covered / box * light[c];
-      }
-      to.At(x, y) = sum;
+  from.ForEach([&](int x, int y) {
+    Light sum = {};
+    for (int k = -reach; k <= reach; ++k) {
+      if (!from.Inside(x + k * dx, y + k * dy)) continue;
+      const double covered = std::min(box / 2, k + 0.5) - std::max(-box / 2, k - 0.5);
+      const Light& light = from.At(x + k * dx, y + k * dy);
+      for (size_t c = 0; c < 4; ++c) sum[c] += covered / box * light[c];
     }
-  }
+    to.At(x, y) = sum;
+  });
   return to;
 }
 
@@ -159,20 +142,18 @@ Plane MakePlane(const SurfaceMap& map, const Range& range, const Lens& lens,
   // any view.
   const int reach = std::abs(lens.Shift(lens.n, range.Disparity())) / 256 + 6;
   Plane plane(reach, reach, rect.width + 2 * reach, rect.height + 2 * reach);
-  for (int y = -reach; y < rect.height + reach; ++y) {
-    for (int x = -reach; x < rect.width + reach; ++x) {
-      for (const Surface& surface : map.At(x + rect.left, y + rect.top)) {
-        // A pixel at the end of a surface must be in a single slice, since in two slices its
-        // coverage would be doubled.
-        const int high = surface.share < 1 || surface.ends ? range.high : range.overlap;
-        if (surface.disparity < range.low || surface.disparity > high) continue;
-        Light& light = plane.At(x, y);
-        const double part = (1 - light[3]) * surface.share;
-        for (size_t c = 0; c < 3; ++c) light[c] += part * surface.colour[c];
-        light[3] += part;
-      }
+  plane.ForEach([&](int x, int y) {
+    for (const Surface& surface : map.At(x + rect.left, y + rect.top)) {
+      // A pixel at the end of a surface must be in a single slice, since in two slices its
+      // coverage would be doubled.
+      const int high = surface.share < 1 || surface.ends ? range.high : range.overlap;
+      if (surface.disparity < range.low || surface.disparity > high) continue;
+      Light& light = plane.At(x, y);
+      const double part = (1 - light[3]) * surface.share;
+      for (size_t c = 0; c < 3; ++c) light[c] += part * surface.colour[c];
+      light[3] += part;
     }
-  }
+  });
   const double width = std::abs(lens.Shift(1, range.Disparity())) / 256.0;
   const double box = std::min(width, 2.0 * starfocus::simd::kMaxSpread + 1);
   return box > kWidestBox ? Spread(Spread(plane, box, 1, 0), box, 0, 1) : plane;
@@ -213,13 +194,10 @@ double InnerScale(const Lens& lens, int disparity, double width) {
   double total = 0, exact = 0;
   for (int i = 0; i <= lens.n; ++i) {
     shifts.push_back(i == 0 ? 0 : std::abs(lens.Shift(i, disparity)) / 256.0);
-    double weight = 0;
-    for (int j = -lens.n; j <= lens.n; ++j) {
-      for (const int side : {-i, i}) {
-        if (lens.Contains(side, j)) weight += lens.Density(side, j);
-      }
-    }
-    weights.push_back(i == 0 ? weight / 2 : weight);
+    weights.push_back(0);
+    lens.ForEachView([&](int column, int j) {
+      if (std::abs(column) == i) weights.back() += lens.Density(column, j);
+    });
     total += weights.back();
     exact += weights.back() * shifts.back() * shifts.back();
   }
@@ -275,11 +253,8 @@ Offset OffsetOf(const Lens& lens, int k, int disparity) {
 // the rectangle.
 Plane MovedAlongX(const Plane& from, const Offset& offset, int width) {
   Plane to(0, from.top, width, from.height);
-  for (int y = -from.top; y < from.height - from.top; ++y) {
-    for (int x = 0; x < width; ++x) {
-      to.At(x, y) = offset.See([&](int k) { return from.At(x + k, y); });
-    }
-  }
+  to.ForEach(
+      [&](int x, int y) { to.At(x, y) = offset.See([&](int k) { return from.At(x + k, y); }); });
   return to;
 }
 
@@ -309,10 +284,7 @@ class Stack {
             MovedAlongX(planes_[k], OffsetOf(lens_, i, ranges_[k].Disparity()), rect_.width));
       }
       for (int j = -lens_.n; j <= lens_.n; ++j) {
-        if (!lens_.Contains(i, j)) continue;
-        const double density = lens_.Density(i, j);
-        AddView(column, j, density);
-        total_ += density;
+        if (lens_.Contains(i, j)) AddView(column, j, lens_.Density(i, j));
       }
     }
     return sum_;
@@ -323,6 +295,7 @@ class Stack {
 
  private:
   void AddView(const std::vector<Plane>& column, int j, double weight) {
+    total_ += weight;
     std::vector<Offset> offsets;
     for (const Range& range : ranges_) offsets.push_back(OffsetOf(lens_, j, range.Disparity()));
     ForEachPixel(rect_.width, rect_.height, [&](int x, int y) {

@@ -233,11 +233,8 @@ class SurfaceFinder {
     const std::vector<Position> occlusion_views = LooksOn(field_, {-side.x, -side.y});
     Colour far = extended_.colours[at(same(-1, 0) ? -1 : 0)];
     if (!occlusion_views.empty()) {
-      const auto [u, v] = occlusion_views.back();
-      const int disparity = extended_.disparities[at(0)];
-      far = Read(field_, lens_.layer, occlusion_views.back(),
-                 x0_ + x - Moved(u, disparity, lens_.layer),
-                 y0_ + y - Moved(v, disparity, lens_.layer));
+      far = ReadMoved(field_, lens_.layer, occlusion_views.back(), x0_ + x, y0_ + y,
+                      extended_.disparities[at(0)]);
     }
     const Colour& near = extended_.colours[at(same(2, 1) ? 2 : 1)];
     return MixtureOf(Divide(near, far, mixed, kContrastFade), near, far, mixed);
@@ -276,13 +273,11 @@ class SurfaceFinder {
     if (x == 0 || y == 0 || x == extended_.width - 1 || y == extended_.height - 1) return;
     const int here = Disparity(x, y);
     int farthest = here;
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const int there = Disparity(x + dx, y + dy);
-        if (here - there < unit_ * 2 / 64 || IsEdge(here, there)) continue;
-        farthest = std::min(farthest, there);
-      }
-    }
+    ForEachAround(1, [&](int dx, int dy) {
+      const int there = Disparity(x + dx, y + dy);
+      if (here - there < unit_ * 2 / 64 || IsEdge(here, there)) return;
+      farthest = std::min(farthest, there);
+    });
     if (farthest == here || surfaces->front().ends) return;
     if (surfaces->size() > 1 && (*surfaces)[1].disparity >= farthest) return;
     surfaces->insert(surfaces->begin() + 1, {farthest, ColourBeside(x, y, farthest)});
@@ -414,10 +409,8 @@ class SurfaceFinder {
       return extended_
           .colours[extended_.At(x + dx * background.distance, y + dy * background.distance)];
     }
-    const auto [u, v] = *background.captured;
-    return Read(field_, lens_.layer, *background.captured,
-                x0_ + x - Moved(u, background.disparity, lens_.layer),
-                y0_ + y - Moved(v, background.disparity, lens_.layer));
+    return ReadMoved(field_, lens_.layer, *background.captured, x0_ + x, y0_ + y,
+                     background.disparity);
   }
 
   const LightField& field_;

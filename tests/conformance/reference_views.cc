@@ -156,14 +156,18 @@ Colour Read(const LightField& field, int layer, const Position& view, double x, 
   const auto nearest = [&](double at) { return int(Rounded(std::lround(at * 256), 8 - layer)); };
   const int reach = (1 << layer) - 1, column = nearest(x), row = nearest(y);
   Colour colour = {0, 0, 0};
-  for (int dy = -reach; dy <= reach; ++dy) {
-    for (int dx = -reach; dx <= reach; ++dx) {
-      const double weight = double((1 << layer) - std::abs(dx)) * ((1 << layer) - std::abs(dy));
-      const Colour pixel = ReadPicture(field, view, column + dx, row + dy);
-      for (size_t c = 0; c < 3; ++c) colour[c] += weight / (1 << 4 * layer) * pixel[c];
-    }
-  }
+  ForEachAround(reach, [&](int dx, int dy) {
+    const double weight = double((1 << layer) - std::abs(dx)) * ((1 << layer) - std::abs(dy));
+    const Colour pixel = ReadPicture(field, view, column + dx, row + dy);
+    for (size_t c = 0; c < 3; ++c) colour[c] += weight / (1 << 4 * layer) * pixel[c];
+  });
   return colour;
+}
+
+Colour ReadMoved(const LightField& field, int layer, const Position& view, int x, int y,
+                 int disparity) {
+  return Read(field, layer, view, x - Moved(view.first, disparity, layer),
+              y - Moved(view.second, disparity, layer));
 }
 
 Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect) {
@@ -223,9 +227,8 @@ void ExtendEdges(const LightField& field, const Picture& picture, int layer, con
         SeenBeyond(picture, layer, edge_x, edge_y, out, std::abs(out.x != 0 ? u : v), disparity);
     const int k = std::min(seen, std::abs(x - edge_x) + std::abs(y - edge_y));
     if (seen == 0) return;
-    extended->colours[extended->At(column, row)] =
-        Read(field, layer, occlusion_views[0], edge_x + out.x * k - Moved(u, disparity, layer),
-             edge_y + out.y * k - Moved(v, disparity, layer));
+    extended->colours[extended->At(column, row)] = ReadMoved(
+        field, layer, occlusion_views[0], edge_x + out.x * k, edge_y + out.y * k, disparity);
   });
 }
 
@@ -368,21 +371,14 @@ Picture RefocusRectangle(const LightField& field, const Picture& centre, const L
                          const Rectangle& rectangle) {
   double total = 0;
   std::vector<double> densities;
-  for (int j = -lens.n; j <= lens.n; ++j) {
-    for (int i = -lens.n; i <= lens.n; ++i) {
-      if (!lens.Contains(i, j)) continue;
-      densities.push_back(lens.Density(i, j));
-      total += densities.back();
-    }
-  }
+  lens.ForEachView([&](int i, int j) {
+    densities.push_back(lens.Density(i, j));
+    total += densities.back();
+  });
   Views views(field, centre, lens, rectangle);
   Picture sum(rectangle.width, rectangle.height);
   auto density = densities.begin();
-  for (int j = -lens.n; j <= lens.n; ++j) {
-    for (int i = -lens.n; i <= lens.n; ++i) {
-      if (lens.Contains(i, j)) views.Add(i, j, *density++ / total, &sum);
-    }
-  }
+  lens.ForEachView([&](int i, int j) { views.Add(i, j, *density++ / total, &sum); });
   return sum;
 }
 

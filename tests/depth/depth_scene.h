@@ -59,25 +59,21 @@ struct PlaneField {
   }
 };
 
-// Renders a view whose samples are pixel(u, v, x, y, c).
+// Renders views whose samples are pixel(u, v, x, y, c): a star of `views` views, or the views at
+// the given positions.
 template <class Pixel>
-std::vector<uint8_t> RenderView(int width, int height, const starfocus_position& position,
-                                const Pixel& pixel) {
-  std::vector<uint8_t> view;
-  for (int at = 0; at < 3 * width * height; ++at) {
-    view.push_back(pixel(position.u, position.v, at / 3 % width, at / 3 / width, at % 3));
-  }
-  return view;
-}
-
-// Renders a star of views whose samples are pixel(u, v, x, y, c).
-template <class Pixel>
-PlaneField RenderViews(int width, int height, int views, const Pixel& pixel) {
-  PlaneField field = {width, height, {}};
+PlaneField RenderViews(int width, int height, int views, const Pixel& pixel,
+                       const std::vector<starfocus_position>& positions = {}) {
+  PlaneField field = {width, height, {}, positions};
+  if (!positions.empty()) views = int(positions.size());
+  field.views.resize(size_t(views));
   for (int k = 0; k < views; ++k) {
-    starfocus_position position = {};
-    starfocus_view_position(k, &position.u, &position.v, nullptr);
-    field.views.push_back(RenderView(width, height, position, pixel));
+    double u = 0, v = 0;
+    starfocus_view_position(k, &u, &v, nullptr);
+    if (!positions.empty()) u = positions[size_t(k)].u, v = positions[size_t(k)].v;
+    for (int at = 0; at < 3 * width * height; ++at) {
+      field.views[size_t(k)].push_back(pixel(u, v, at / 3 % width, at / 3 / width, at % 3));
+    }
   }
   return field;
 }
@@ -86,12 +82,7 @@ inline PlaneField RenderPlanes(const PlaneScene& scene) {
   const auto pixel = [&](double u, double v, int x, int y, int c) {
     return scene.Pixel(u, v, x, y, c);
   };
-  if (scene.positions.empty()) return RenderViews(scene.width, scene.height, scene.views, pixel);
-  PlaneField field = {scene.width, scene.height, {}, scene.positions};
-  for (const starfocus_position& position : scene.positions) {
-    field.views.push_back(RenderView(scene.width, scene.height, position, pixel));
-  }
-  return field;
+  return RenderViews(scene.width, scene.height, scene.views, pixel, scene.positions);
 }
 
 // Returns the map of the scene, with a near plane that is wider by `grown` pixels on both sides.
@@ -138,28 +129,58 @@ struct Memory {
   void* data;
 };
 
+// Value of samples of confidence and coverage that no call has written; such disparities are NaN.
+constexpr uint8_t kUnset = 77;
+
+// All outputs of a call, and the problem that the call reported.
 struct MadeMap {
   std::vector<float> disparity;
-  std::vector<uint8_t> confidence;
+  std::vector<uint8_t> confidence, coverage;
+  int32_t has_coverage = -1;
+  starfocus_status status = STARFOCUS_OK;
+  starfocus_problem problem = {};
+
+  // Returns true if no call has written disparities or confidence.
+  bool IsUnset() const {
+    return std::all_of(disparity.begin(), disparity.end(), [](float d) { return std::isnan(d); }) &&
+           confidence == std::vector<uint8_t>(confidence.size(), kUnset);
+  }
 };
+
+enum class Makes { kEstimate, kRepair, kRepairWithCoverage };
+
+// Estimates or repairs the map of a light field, with memory that lacks `missing` bytes.
+inline MadeMap TryMap(const test::Config& config, const starfocus_light_field& field, Makes makes,
+                      const starfocus_callbacks* callbacks = nullptr, size_t missing = 0) {
+  const bool estimates = makes == Makes::kEstimate;
+  size_t bytes = 0;
+  REQUIRE(starfocus_map_workspace_size(&config, estimates ? 0 : 1, &bytes, nullptr) ==
+          STARFOCUS_OK);
+  const Memory memory(bytes - missing);
+  const auto width = size_t(config.width), pixels = width * size_t(config.height);
+  MadeMap made = {std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, kUnset),
+                  std::vector<uint8_t>(pixels, kUnset)};
+  starfocus_disparity_output out = {
+      made.disparity.data(), sizeof(float) * width, made.confidence.data(), width, nullptr, width,
+      made.has_coverage};
+  if (makes == Makes::kRepairWithCoverage) out.coverage = made.coverage.data();
+  made.status = (estimates ? starfocus_estimate_disparity : starfocus_repair_disparity)(
+      &config, callbacks, &field, &out, memory.data, memory.bytes, &made.problem);
+  made.has_coverage = out.has_coverage;
+  return made;
+}
 
 // Returns the estimated map, or the repaired map if `given` is not empty.
 inline MadeMap MakeMap(const PlaneField& field, const test::Config& config,
-                       const std::vector<float>& given = {}) {
-  size_t bytes = 0;
-  REQUIRE(starfocus_map_workspace_size(&config, given.empty() ? 0 : 1, &bytes, nullptr) ==
-          STARFOCUS_OK);
-  const Memory memory(bytes);
-  const auto width = size_t(field.width), pixels = width * size_t(field.height);
-  MadeMap made = {std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, 77)};
+                       const std::vector<float>& given = {}, bool covers = false) {
   starfocus_light_field light_field = field.Get();
-  light_field.depth =
-      starfocus_depth_float(given.data(), sizeof(float) * width, field.width, field.height);
-  starfocus_disparity_output map = {
-      made.disparity.data(), sizeof(float) * width, made.confidence.data(), width, nullptr, 0, 0};
-  const auto make = given.empty() ? starfocus_estimate_disparity : starfocus_repair_disparity;
-  REQUIRE(make(&config, nullptr, &light_field, &map, memory.data, memory.bytes, nullptr) ==
-          STARFOCUS_OK);
+  light_field.depth = starfocus_depth_float(given.data(), sizeof(float) * size_t(field.width),
+                                            field.width, field.height);
+  MadeMap made = TryMap(config, light_field,
+                        given.empty() ? Makes::kEstimate
+                        : covers      ? Makes::kRepairWithCoverage
+                                      : Makes::kRepair);
+  REQUIRE(made.status == STARFOCUS_OK);
   return made;
 }
 

@@ -20,14 +20,7 @@ namespace {
 
 using test::ImageField;
 using test::ImageKind;
-
-// All outputs of a call, and the problem that the call reported.
-struct Made {
-  starfocus_status status = STARFOCUS_OK;
-  std::vector<float> disparity;
-  std::vector<uint8_t> confidence;
-  starfocus_problem problem = {};
-};
+using test::MadeMap;
 
 test::Config ConfigOf(const test::Scene& scene) {
   test::Config config;
@@ -39,25 +32,13 @@ test::Config ConfigOf(const test::Scene& scene) {
   return config;
 }
 
-Made Make(const ImageField& field, bool repairs, uint32_t features, int workers = 1,
-          const starfocus_callbacks& callbacks = {}) {
-  const test::Scene& scene = field.converted;
-  Made made;
-  test::Config config = ConfigOf(scene);
+MadeMap Make(const ImageField& field, bool repairs, uint32_t features, int workers = 1,
+             const starfocus_callbacks* callbacks = nullptr) {
+  test::Config config = ConfigOf(field.converted);
   config.features = features;
   config.max_workers = workers;
-  size_t bytes = 0;
-  REQUIRE(starfocus_map_workspace_size(&config, repairs ? 1 : 0, &bytes, nullptr) == STARFOCUS_OK);
-  const test::Memory memory(bytes);
-  const auto width = size_t(scene.width), pixels = width * size_t(scene.height);
-  made.disparity.assign(pixels, -77);
-  made.confidence.assign(pixels, 77);
-  starfocus_disparity_output map = {
-      made.disparity.data(), sizeof(float) * width, made.confidence.data(), width, {}, {}, {}};
-  const starfocus_light_field images = features != 0 ? field.Field() : scene.Field();
-  made.status = (repairs ? starfocus_repair_disparity : starfocus_estimate_disparity)(
-      &config, &callbacks, &images, &map, memory.data, memory.bytes, &made.problem);
-  return made;
+  return TryMap(config, features != 0 ? field.Field() : field.converted.Field(),
+                repairs ? test::Makes::kRepair : test::Makes::kEstimate, callbacks);
 }
 
 // Returns views in different formats, and a map of a type in about a quarter of the size, in which
@@ -83,12 +64,9 @@ TEST_CASE("maps of any format: the result is that of the converted light field")
         const ImageField field = Field(views, type, meaning, &random);
         for (const bool repairs : {true, false}) {
           if (views == 1 && !repairs) continue;
-          CAPTURE(views);
-          CAPTURE(type);
-          CAPTURE(meaning);
-          CAPTURE(repairs);
-          const Made expected = Make(field, repairs, 0);
-          const Made found = Make(field, repairs, STARFOCUS_FEATURE_IMAGES);
+          CAPTURES(views, type, meaning, repairs);
+          const MadeMap expected = Make(field, repairs, 0);
+          const MadeMap found = Make(field, repairs, STARFOCUS_FEATURE_IMAGES);
           REQUIRE(expected.status == STARFOCUS_OK);
           REQUIRE(found.status == STARFOCUS_OK);
           CHECK((found.disparity == expected.disparity));
@@ -115,8 +93,8 @@ properties::Operation OperationOnImages() {
   return {"repair of images", kHeight, 3 * (2 + 6),
           [field](const properties::Setup& setup) -> properties::Run {
             return [field, setup](const starfocus_callbacks& callbacks, properties::Bytes* out) {
-              const Made made =
-                  Make(*field, true, STARFOCUS_FEATURE_IMAGES, setup.workers, callbacks);
+              const MadeMap made =
+                  Make(*field, true, STARFOCUS_FEATURE_IMAGES, setup.workers, &callbacks);
               *out = made.confidence;
               const size_t bytes = made.disparity.size() * sizeof(float);
               out->resize(out->size() + bytes);
@@ -136,56 +114,49 @@ TEST_CASE("maps of any format: workers, cancelling and failed runners") {
 TEST_CASE("maps of any format: without the feature, other formats are rejected") {
   test::Random random(4);
   const ImageField field = Field(1, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_LINEAR, &random);
-  const test::Scene& scene = field.converted;
-  starfocus_problem problem = {};
-  test::Config config = ConfigOf(scene);
-  size_t bytes = 0, with = 0;
-  REQUIRE(starfocus_map_workspace_size(&config, 1, &bytes, nullptr) == STARFOCUS_OK);
-  const test::Memory memory(bytes);
-  std::vector<float> map(size_t(scene.width * scene.height), -77);
-  starfocus_disparity_output out = {};
-  out.disparity = map.data();
-  out.disparity_stride = sizeof(float) * size_t(scene.width);
-  const starfocus_light_field images = field.Field();
-  const auto run = [&](const starfocus_light_field& given) {
-    return starfocus_repair_disparity(&config, nullptr, &given, &out, memory.data, memory.bytes,
-                                      &problem);
+  test::Config config = ConfigOf(field.converted);
+  const auto check_refused = [&](const starfocus_light_field& given, const char* named) {
+    const MadeMap made = TryMap(config, given, test::Makes::kRepair);
+    CHECK(made.status == STARFOCUS_ERROR_FEATURE);
+    CHECK(std::string(made.problem.field) == named);
+    const std::string feature = ", or STARFOCUS_FEATURE_IMAGES in config.features";
+    CHECK(std::string(made.problem.expected).find(feature) != std::string::npos);
+    CHECK(made.IsUnset());
   };
-  CHECK(run(images) == STARFOCUS_ERROR_FEATURE);
-  CHECK(std::string(problem.field) == "views[].format");
-  const std::string feature = ", or STARFOCUS_FEATURE_IMAGES in config.features";
-  CHECK(std::string(problem.expected).find(feature) != std::string::npos);
+  const starfocus_light_field images = field.Field();
+  check_refused(images, "views[].format");
   starfocus_light_field mixed = images;
-  mixed.views[0] = scene.Field().views[0];
-  CHECK(run(mixed) == STARFOCUS_ERROR_FEATURE);
-  CHECK(std::string(problem.field) == "depth");
-  CHECK(std::string(problem.expected).find(feature) != std::string::npos);
+  mixed.views[0] = field.converted.Field().views[0];
+  check_refused(mixed, "depth");
+  size_t without = 0, with = 0;
+  REQUIRE(starfocus_map_workspace_size(&config, 1, &without, nullptr) == STARFOCUS_OK);
   config.features = STARFOCUS_FEATURE_IMAGES;
-  CHECK(run(images) == STARFOCUS_ERROR_WORKSPACE);
   REQUIRE(starfocus_map_workspace_size(&config, 1, &with, nullptr) == STARFOCUS_OK);
-  const double more = double(with - bytes) / (scene.width * scene.height);
+  const MadeMap lacking = TryMap(config, images, test::Makes::kRepair, nullptr, with - without);
+  CHECK(lacking.status == STARFOCUS_ERROR_WORKSPACE);
+  CHECK(lacking.IsUnset());
+  const double more = double(with - without) / (config.width * config.height);
   CHECK(more == doctest::Approx(7).epsilon(0.2));
-  CHECK(map == std::vector<float>(map.size(), -77));
 }
 
 TEST_CASE("maps of any format: values of the map are checked before the map is converted") {
   test::Random random(5);
   ImageField field = Field(1, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_LINEAR, &random);
   field.converted.disparity_max = field.converted.disparity_min + 1;
-  const Made outside = Make(field, true, STARFOCUS_FEATURE_IMAGES);
+  const MadeMap outside = Make(field, true, STARFOCUS_FEATURE_IMAGES);
   CHECK(outside.status == STARFOCUS_ERROR_DISPARITY);
   CHECK(outside.problem.value > outside.problem.high);
   field.converted.disparity_min = static_cast<float>(outside.problem.value) + 1;
   field.converted.disparity_max = field.converted.disparity_min + 1;
-  const Made below = Make(field, true, STARFOCUS_FEATURE_IMAGES);
+  const MadeMap below = Make(field, true, STARFOCUS_FEATURE_IMAGES);
   CHECK(below.status == STARFOCUS_ERROR_DISPARITY);
   CHECK(below.problem.value < below.problem.low);
   for (int y = 0; y < field.depth.map.height; ++y) {
     for (int x = 0; x < field.depth.map.width; ++x) field.depth.Put(x, y, field.depth.map.invalid);
   }
-  const Made unknown = Make(field, true, STARFOCUS_FEATURE_IMAGES);
+  const MadeMap unknown = Make(field, true, STARFOCUS_FEATURE_IMAGES);
   CHECK(unknown.status == STARFOCUS_ERROR_ALL_INVALID);
-  CHECK(unknown.confidence == std::vector<uint8_t>(unknown.confidence.size(), 77));
+  CHECK(unknown.IsUnset());
 }
 
 }  // namespace

@@ -15,40 +15,42 @@
 namespace map_golden_bytes_test {
 namespace {
 
-constexpr int kWidth = 72, kHeight = 48, kMargin = 8;
+constexpr int kMargin = 8;
 constexpr int kNear = 4, kFar = -2;
 
 // A near plane with an uneven outline in front of a far plane, made with integer arithmetic. The
-// pictures of other views show the planes at whole pixels.
+// pictures of other views show the planes at whole pixels. The near plane begins at least 20 pixels
+// right of `left`.
 struct IntegerPlanes {
-  std::vector<uint8_t> texture[2];
+  const int width, height, left;
+  std::vector<uint8_t> texture[2] = {};
 
-  IntegerPlanes() {
+  IntegerPlanes(int w, int h, int l) : width(w), height(h), left(l) {
     test::Random random(7);
     for (std::vector<uint8_t>& samples : texture) {
-      for (int n = 0; n < 3 * (kWidth + 2 * kMargin) * (kHeight + 2 * kMargin); ++n) {
+      for (int n = 0; n < 3 * (width + 2 * kMargin) * (height + 2 * kMargin); ++n) {
         const int shade = n / 3 / 9 % 11 * 10;
         samples.push_back(uint8_t(shade + random.Int(0, &samples == texture ? 90 : 140)));
       }
     }
   }
-  static bool IsNear(int x, int y) { return x >= 20 + y / 8 && x < 50 - y * y / 200; }
+  bool IsNear(int x, int y) const { return x - left >= 20 + y / 8 && x - left < 50 - y * y / 200; }
 
   uint8_t operator()(double u, double v, int x, int y, int c) const {
     const bool near = IsNear(x + int(u * kNear), y + int(v * kNear));
     const int column = x + int(u * (near ? kNear : kFar)), row = y + int(v * (near ? kNear : kFar));
-    const int at = (row + kMargin) * (kWidth + 2 * kMargin) + column + kMargin;
+    const int at = (row + kMargin) * (width + 2 * kMargin) + column + kMargin;
     return texture[near ? 0 : 1][size_t(3 * at + c)];
   }
 };
 
 // Returns a map with an outline that is two pixels too wide, steps of an eighth of a pixel, and
 // unknown and wrong disparities.
-std::vector<float> GivenMap() {
+std::vector<float> GivenMap(const IntegerPlanes& planes) {
   std::vector<float> map;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const bool near = IntegerPlanes::IsNear(x - 2, y) || IntegerPlanes::IsNear(x + 2, y);
+  for (int y = 0; y < planes.height; ++y) {
+    for (int x = 0; x < planes.width; ++x) {
+      const bool near = planes.IsNear(x - 2, y) || planes.IsNear(x + 2, y);
       map.push_back(float((near ? kNear : kFar) + (x + y) % 3 / 8.0));
       if (x > 30 && x < 36 && y > 20 && y < 24) map.back() = NAN;
       if (x > 60 && y > 40) map.back() = float(kNear);
@@ -72,6 +74,8 @@ struct Row {
   int views;
   bool repair;
   uint64_t hash;
+  // Lengths of 400 pixels give three tiles, with an edge across a boundary of tiles.
+  int width = 72, left = 0, height = 48;
 };
 
 TEST_CASE("map golden: maps match the recorded checksums on every machine and SIMD target") {
@@ -86,16 +90,16 @@ TEST_CASE("map golden: maps match the recorded checksums on every machine and SI
       {"repair, 1 view", {}, 1, true, 0x6AE351DB2E8BC8AAU},
       {"repair, 5 views", {}, 5, true, 0xB888B16522B416B6U},
       {"repair, 17 views", {}, 17, true, 0x8E0B216A1F4D6760U},
+      {"repair, 1 view, 3 rows of tiles", {}, 1, true, 0xCE2F4D00AC427D67U, 72, 0, 400},
+      {"repair, 1 view, 3 tiles", {}, 1, true, 0xDC147EEEB660E2E3U, 400, 110},
+      {"repair, 5 views, 3 tiles", {}, 5, true, 0xF08328215A52F0E2U, 400, 110},
   };
-  const IntegerPlanes planes;
   for (const Row& row : kRows) {
-    test::PlaneField field = {kWidth, kHeight, {}, row.positions};
-    if (row.positions.empty()) field = test::RenderViews(kWidth, kHeight, row.views, planes);
-    for (const starfocus_position& position : row.positions) {
-      field.views.push_back(test::RenderView(kWidth, kHeight, position, planes));
-    }
+    const IntegerPlanes planes(row.width, row.height, row.left);
+    const test::PlaneField field =
+        test::RenderViews(row.width, row.height, row.views, planes, row.positions);
     const test::MadeMap map = test::MakeMap(field, test::ConfigOf(field, -6, 8),
-                                            row.repair ? GivenMap() : std::vector<float>());
+                                            row.repair ? GivenMap(planes) : std::vector<float>());
     CAPTURE(row.name);
     CHECK(Hash(map) == row.hash);
   }

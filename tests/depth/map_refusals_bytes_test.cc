@@ -153,8 +153,7 @@ void CheckTable(const Refusal (&table)[kCount], const Run& run) {
   for (const int function : {kEstimate, kRepair}) {
     for (const Refusal& row : table) {
       if ((row.functions & function) == 0) continue;
-      CAPTURE(function);
-      CAPTURE(&row - table);
+      CAPTURES(function, &row - table);
       Call call(function);
       row.spoil(&call);
       CHECK(run(&call) == row.status);

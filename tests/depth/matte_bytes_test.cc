@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -25,7 +26,7 @@ struct Matte {
         height(h),
         step(pixel_stride),
         row(w * step + padding),
-        bytes(size_t(row) * size_t(h), kUnset) {}
+        bytes(size_t(row) * size_t(h)) {}
   uint8_t& At(int x, int y) { return bytes[size_t(y * row + x * step + step - 1)]; }
   starfocus_matte Get() const {
     return {bytes.data() + step - 1, size_t(row), step == 1 ? 0 : step, width, height};
@@ -128,6 +129,14 @@ starfocus_matte_stats Measured(const Matte& matte) {
   return stats;
 }
 
+// Left, top, right, bottom, horizon and ground, rounded to 1e-9.
+using Box = std::array<double, 6>;
+Box BoxOf(const starfocus_matte_stats& stats) {
+  Box box = {stats.left, stats.top, stats.right, stats.bottom, stats.horizon, stats.ground};
+  for (double& value : box) value = std::round(value * 1e9) / 1e9;
+  return box;
+}
+
 TEST_CASE("matte: the box, the mean and the proposed floor are measured") {
   Matte matte(40, 20, 4, 5);
   std::fill(matte.bytes.begin(), matte.bytes.end(), uint8_t{255});  // colours and padding
@@ -137,45 +146,32 @@ TEST_CASE("matte: the box, the mean and the proposed floor are measured") {
       matte.At(x, y) = uint8_t(inside ? 128 : x == 9 ? 127 : 0);
     }
   }
-  starfocus_matte_stats stats = Measured(matte);
+  const starfocus_matte_stats stats = Measured(matte);
   CHECK(stats.covered == doctest::Approx((20 * 14 * 128 + 20 * 127) / (255.0 * 800)));
-  CHECK(stats.left == 0.25);
-  CHECK(stats.right == 0.75);
-  CHECK(stats.top == 0.2);
-  CHECK(stats.bottom == 0.9);
-  CHECK(stats.ground == 0.9);
-  CHECK(stats.horizon == 0.5);
+  CHECK(BoxOf(stats) == Box{0.25, 0.2, 0.75, 0.9, 0.5, 0.9});
   for (int y = 8; y < 20; ++y) {
     for (int x = 0; x < 40; ++x) matte.At(x, y) = 0;
   }
-  stats = Measured(matte);
-  CHECK(stats.horizon == doctest::Approx(0.3));
+  CHECK(BoxOf(Measured(matte)) == Box{0.25, 0.2, 0.75, 0.4, 0.3, 0.4});
 }
 
 TEST_CASE("matte: a wrong sample does not move the proposed floor") {
   Matte matte(64, 80);
-  std::fill(matte.bytes.begin(), matte.bytes.end(), uint8_t{0});
   for (int y = 16; y < 48; ++y) {
     for (int x = 16; x < 48; ++x) matte.At(x, y) = 255;
   }
-  for (const int specks : {0, 1, 2}) {
-    if (specks > 0) matte.At(3, specks == 1 ? 79 : 0) = 255;
-    const starfocus_matte_stats stats = Measured(matte);
-    CHECK(stats.ground == 0.6);
-    CHECK(stats.horizon == doctest::Approx(0.4));
-    CHECK(stats.bottom == (specks == 0 ? 0.6 : 1));
-  }
+  CHECK(BoxOf(Measured(matte)) == Box{0.25, 0.2, 0.75, 0.6, 0.4, 0.6});
+  matte.At(3, 79) = 255;
+  CHECK(BoxOf(Measured(matte)) == Box{3 / 64.0, 0.2, 0.75, 1, 0.4, 0.6});
+  matte.At(3, 0) = 255;
+  CHECK(BoxOf(Measured(matte)) == Box{3 / 64.0, 0, 0.75, 1, 0.4, 0.6});
 }
 
 TEST_CASE("matte: without a subject, the box and the floor are 0") {
   Matte matte(7, 5);
   std::fill(matte.bytes.begin(), matte.bytes.end(), uint8_t{127});
-  starfocus_matte_stats stats = Measured(matte);
-  CHECK(stats.covered == doctest::Approx(127 / 255.0));
-  for (const double zero :
-       {stats.left, stats.top, stats.right, stats.bottom, stats.horizon, stats.ground}) {
-    CHECK(zero == 0);
-  }
+  CHECK(Measured(matte).covered == doctest::Approx(127 / 255.0));
+  CHECK(BoxOf(Measured(matte)) == Box{});
 }
 
 TEST_CASE("matte: the coverage is the resampled matte, and the map follows the coverage") {
@@ -191,8 +187,7 @@ TEST_CASE("matte: the coverage is the resampled matte, and the map follows the c
                              {5, 90, 600, 89},
                              {1, 1, 3, 2},
                              {23, 1, 1, 9}}) {
-    CAPTURE(sizes.width);
-    CAPTURE(sizes.wide);
+    CAPTURES(sizes.width, sizes.wide);
     Matte matte = RandomMatte(sizes.width, sizes.height, 4, 9);
     const Planes made = Field(matte.Get(), kFlatSurfaces, sizes.wide, sizes.high);
     const double smooth =
@@ -232,8 +227,7 @@ TEST_CASE("matte: an empty or full matte stays empty or full at every size") {
 
 TEST_CASE("matte: the floor rises from the horizon to the ground") {
   constexpr int kHeight = 120;
-  Matte matte(4, 4);
-  std::fill(matte.bytes.begin(), matte.bytes.end(), uint8_t{0});
+  const Matte matte(4, 4);
   const starfocus_matte_depth depth = {20, -3.5, 0.4, 0.85};
   const Planes made = Field(matte.Get(), depth, 2, kHeight);
   for (int y = 0; y < kHeight; ++y) {
@@ -257,12 +251,11 @@ TEST_CASE("matte: the coverage is optional, and disparities are rounded to 1/64"
   matte.At(0, 0) = 128;
   const starfocus_matte given = matte.Get();
   const starfocus_matte_depth depth = {1 + 1 / 128.0, -500, 0, 0};
-  float map = 0;
-  starfocus_disparity_output out = {};
-  out.disparity = &map;
-  out.disparity_stride = sizeof map;
+  Planes planes(1, 1);
+  starfocus_disparity_output out = planes.Out();
+  out.coverage = nullptr;
   REQUIRE(starfocus_matte_field(&given, &depth, 1, 1, nullptr, &out, nullptr) == STARFOCUS_OK);
-  CHECK(map == 1 + 1 / 64.0F);
+  CHECK(planes.Map(0, 0) == 1 + 1 / 64.0F);
   CHECK(out.has_coverage == 0);
 }
 
@@ -285,9 +278,9 @@ struct Portrait {
   starfocus_depth_map Depth() const {
     return starfocus_depth_float(map.data(), sizeof(float) * kWidth, kWidth, kHeight);
   }
-  Planes Coverage() const {
+  Planes Coverage() const { return CoverageBy(Depth()); }
+  Planes CoverageBy(const starfocus_depth_map& depth) const {
     const starfocus_matte given = matte.Get();
-    const starfocus_depth_map depth = Depth();
     Planes planes(kWidth, kHeight);
     starfocus_disparity_output out = planes.Out();
     REQUIRE(starfocus_matte_coverage(&given, &depth, kWidth, kHeight, nullptr, &out, nullptr) ==
@@ -296,6 +289,12 @@ struct Portrait {
     CHECK(planes.PaddingIsUnset());
     CHECK(planes.Map(0, 0) == kUnset);
     return planes;
+  }
+  // Checks that the coverage around the outline is the matte.
+  void CheckFollowed(const Planes& made, int reach = 20) {
+    for (int x = kOutline - reach; x < kOutline + reach; ++x) {
+      CHECK(made.Coverage(x, 60) == matte.At(x, 60));
+    }
   }
 
   std::vector<float> map;
@@ -306,10 +305,7 @@ TEST_CASE("matte and map: at outlines of the subject, the coverage is the matte"
   for (const int error : {-10, 0, 10}) {
     CAPTURE(error);
     Portrait portrait(error);
-    const Planes made = portrait.Coverage();
-    for (int x = Portrait::kOutline - 20; x < Portrait::kOutline + 20; ++x) {
-      CHECK(made.Coverage(x, 60) == portrait.matte.At(x, 60));
-    }
+    portrait.CheckFollowed(portrait.Coverage());
   }
 }
 
@@ -319,10 +315,7 @@ TEST_CASE("matte and map: a narrow strip of the map along an outline does not co
     float* const row = portrait.map.data() + y * Portrait::kWidth;
     std::fill(row + Portrait::kOutline - 3, row + Portrait::kOutline, 5.5F);
   }
-  const Planes made = portrait.Coverage();
-  for (int x = Portrait::kOutline - 20; x < Portrait::kOutline + 20; ++x) {
-    CHECK(made.Coverage(x, 60) == portrait.matte.At(x, 60));
-  }
+  portrait.CheckFollowed(portrait.Coverage());
 }
 
 TEST_CASE("matte and map: at other edges, the coverage is what the map implies") {
@@ -361,26 +354,20 @@ TEST_CASE("matte and map: where the two contradict each other, the map decides")
 
 TEST_CASE("matte and map: a map of codes at a smaller size gives the coverage of its disparities") {
   constexpr int kWide = 85, kHigh = 50;
-  std::vector<uint8_t> codes(size_t(kWide * kHigh));
+  std::vector<uint8_t> codes;
   std::vector<float> values;
-  for (int y = 0; y < kHigh; ++y) {
-    for (int x = 0; x < kWide; ++x) codes[size_t(y * kWide + x)] = uint8_t(x < 33 ? 40 : 2);
+  for (int at = 0; at < kWide * kHigh; ++at) {
+    codes.push_back(at % kWide < 33 ? 40 : 2);
+    values.push_back(codes.back() * 0.5F - 1);
   }
-  for (const uint8_t code : codes) values.push_back(code * 0.5F - 1);
   Portrait portrait(0);
-  starfocus_depth_map small = {codes.data(),           kWide, kWide, kHigh, STARFOCUS_DEPTH_U8,
-                               STARFOCUS_DEPTH_LINEAR, 0.5,   -1,    0,     0};
+  const starfocus_depth_map small = {
+      codes.data(), kWide, kWide, kHigh, STARFOCUS_DEPTH_U8, STARFOCUS_DEPTH_LINEAR, 0.5, -1, 0, 0};
   const starfocus_depth_map floats =
       starfocus_depth_float(values.data(), sizeof(float) * kWide, kWide, kHigh);
-  const starfocus_matte matte = portrait.matte.Get();
-  Planes one(Portrait::kWidth, Portrait::kHeight), other(Portrait::kWidth, Portrait::kHeight);
-  starfocus_disparity_output first = one.Out(), second = other.Out();
-  REQUIRE(starfocus_matte_coverage(&matte, &small, Portrait::kWidth, Portrait::kHeight, nullptr,
-                                   &first, nullptr) == STARFOCUS_OK);
-  REQUIRE(starfocus_matte_coverage(&matte, &floats, Portrait::kWidth, Portrait::kHeight, nullptr,
-                                   &second, nullptr) == STARFOCUS_OK);
-  CHECK((one.coverage == other.coverage));
-  for (int x = 30; x < 90; ++x) CHECK(one.Coverage(x, 60) == portrait.matte.At(x, 60));
+  const Planes made = portrait.CoverageBy(small);
+  CHECK((made.coverage == portrait.CoverageBy(floats).coverage));
+  portrait.CheckFollowed(made, 30);
 }
 
 // The arguments of calls with a matte; functions of the API take pointers to them.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the labels, views and tiles of an estimate, and at which pixels a repair tries all labels.
+// Tests the labels, views and tiles of an estimate.
 #include "lib/depth/setup.h"
 
 #include <doctest/doctest.h>
@@ -9,8 +9,6 @@
 #include <initializer_list>
 #include <vector>
 
-#include "lib/depth/sweep.h"
-#include "lib/depth/swept.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/depth/depth_scene.h"
 #include "tests/support/config.h"
@@ -19,7 +17,6 @@ namespace setup_test {
 namespace {
 
 using namespace starfocus;
-using test::PlaneScene;
 
 SweepSetup SetupOf(int width, int height, int views, float low, float high,
                    const std::vector<starfocus_position>& positions = {}) {
@@ -115,20 +112,6 @@ TEST_CASE("setup: labels are half a pixel apart, or farther apart in a wide rang
   CHECK(wide.Disparity(wide.labels - 1) + 64 <= INT16_MAX);
 }
 
-TEST_CASE("setup: WholeMove rounds shifts to whole pixels, and halves towards 0") {
-  struct Row {
-    int32_t shift, whole;
-  };
-  for (const Row& row : {Row{64, 0}, {65, 1}, {-64, 0}, {-65, -1}, {-300, -2}}) {
-    CHECK(WholeMove(row.shift) == row.whole);
-    // The shift of a view at a position, of a pixel with a disparity.
-    const int32_t half = row.shift / 2 + row.shift % 2;
-    CHECK(WholeMoveBy(-kViewOne, half) == row.whole);
-    CHECK(WholeMoveBy(kViewOne, half) == -row.whole);
-    CHECK(WholeMoveBy(-kViewOne / 2, 2 * half) == row.whole);
-  }
-}
-
 TEST_CASE("setup: CoarseSetup keeps every other label and the range of the labels") {
   for (int range = 0; range <= 1000; range = range < 70 ? range + 1 : range + 93) {
     const float most = float(range) / 2;
@@ -137,52 +120,6 @@ TEST_CASE("setup: CoarseSetup keeps every other label and the range of the label
     CHECK(coarse.labels >= 1);
     CHECK(coarse.Disparity(coarse.labels - 1) <= setup.Disparity(setup.labels - 1));
     CHECK(coarse.Disparity(coarse.labels) > setup.Disparity(setup.labels - 1) - setup.step);
-  }
-}
-
-// Returns a mask of the pixels at which a repair of the map `given` tries all disparities.
-std::vector<uint8_t> SweptOf(const PlaneScene& scene, const std::vector<float>& given) {
-  const test::PlaneField field = RenderPlanes(scene);
-  const SweepSetup setup = MakeSetup(ConfigOf(field, -6, 8), true);
-  Arena counted(nullptr);
-  TakeEstimate(setup, 1, &counted);
-  const test::Memory bytes(counted.Bytes());
-  Arena arena(bytes.data);
-  const EstimateMemory memory = TakeEstimate(setup, 1, &arena);
-  starfocus_light_field light_field = field.Get();
-  light_field.depth = starfocus_depth_float(given.data(), sizeof(float) * size_t(scene.width),
-                                            scene.width, scene.height);
-  const int tiles = setup.columns * setup.rows;
-  for (int k = 0; k < tiles; ++k) ReadGiven(setup, light_field, TileOf(setup, k), memory);
-  for (int k = 0; k < tiles; ++k) {
-    FindTrusted(setup, TileOf(setup, k), memory.given, memory.trusted);
-    FindDoubts(setup, light_field, TileOf(setup, k), memory);
-  }
-  for (int k = 0; k < tiles; ++k)
-    FindSwept(setup, TileOf(setup, k), memory.workers[0].cost, memory);
-  return {memory.swept, memory.swept + given.size()};
-}
-
-TEST_CASE(
-    "setup: in a correct map, all disparities are tried only around steps, even at tile "
-    "boundaries") {
-  PlaneScene scene;
-  scene.width = 400;
-  scene.near_left = 130;
-  scene.near_right = 262;
-  for (const int views : {5, 9, 17}) {
-    scene.views = views;
-    const std::vector<uint8_t> swept = SweptOf(scene, MapOf(scene));
-    for (int x = 0; x < scene.width; ++x) {
-      // The repair distrusts the pixels on both sides of a step, and tries all disparities within
-      // kSweptRadius of a distrusted pixel.
-      const bool near = (x >= 129 - kSweptRadius && x <= 130 + kSweptRadius) ||
-                        (x >= 261 - kSweptRadius && x <= 262 + kSweptRadius);
-      CAPTURE(x);
-      for (int y = 0; y < scene.height; ++y) {
-        REQUIRE(int(swept[size_t(y * scene.width + x)]) == int(near));
-      }
-    }
   }
 }
 

@@ -144,8 +144,7 @@ TEST_CASE("sweeps: repairs of damaged maps give the disparities that the views s
       {"a smooth part that contradicts the views", OnePlane(0), Lift, {1, 0.4}, two_columns},
   };
   for (const Repaired& row : repairs) {
-    CAPTURE(row.name);
-    CAPTURE(row.scene.views);
+    CAPTURES(row.name, row.scene.views);
     std::vector<float> given = MapOf(row.scene);
     row.damage(row.scene, &given);
     CHECK(ShareOff(row.scene, given, row.before.by) > row.before.share);
@@ -280,8 +279,7 @@ TEST_CASE("sweeps: a repair keeps strands, and opens the gaps that the map has c
                              {5, false, 0.02, 0},
                              {17, false, 0.02, 0},
                              {5, true, 0.05, 101}}) {
-    CAPTURE(row.views);
-    CAPTURE(row.closed);
+    CAPTURES(row.views, row.closed);
     constexpr int kWidth = StrandScene::kWidth, kHeight = StrandScene::kHeight;
     std::vector<bool> is_strand;
     std::vector<float> given;

@@ -60,10 +60,8 @@ void MeasureCell(Draw* draw, KernelCall* call) {
     ForFields(measures[cell],
               [&](const auto* first, int count) { call->Result(first, size_t(count)); });
   }
-  call->Runs([=](const Kernels& kernels) {
-    for (size_t cell = 0; cell < cells; ++cell) {
-      kernels.MeasureCell(rows + 10 * cell, limits, &measures[cell]);
-    }
+  call->RunsEach(cells, [=](const Kernels& kernels, size_t cell) {
+    kernels.MeasureCell(rows + 10 * cell, limits, &measures[cell]);
   });
 }
 
@@ -105,11 +103,9 @@ void ReachBlock(Draw* draw, KernelCall* call) {
   const size_t stride = 2 * blocks + 2 * size_t(around), plane = stride * (2 + 2 * size_t(around));
   const int16_t* cells = MakeCells(plane, stride, size_t(around), draw, call);
   auto* reaches = call->Results<BlockReach>("reach", blocks);
-  call->Runs([=](const Kernels& kernels) {
+  call->RunsEach(blocks, [=](const Kernels& kernels, size_t block) {
     constexpr int16_t kMargins[3] = {0, 4, 12};
-    for (size_t block = 0; block < blocks; ++block) {
-      kernels.ReachBlock(cells + 2 * block, plane, stride, around, kMargins, &reaches[block]);
-    }
+    kernels.ReachBlock(cells + 2 * block, plane, stride, around, kMargins, &reaches[block]);
   });
 }
 

@@ -215,6 +215,14 @@ class CallOf : public CallMemory {
     };
   }
 
+  // Sets `run` to calls of a kernel that returns nothing, for each index below `count`.
+  template <class Call>
+  void RunsEach(size_t count, const Call& call) {
+    Runs([=](const Table& table) {
+      for (size_t n = 0; n < count; ++n) call(table, n);
+    });
+  }
+
   // Sets `run` to a call of `kernel` with copies of the arguments.
   template <class Result, class... Parameters, class... Arguments>
   void Calls(Result (*Table::*kernel)(Parameters...), const Arguments&... arguments) {

@@ -29,30 +29,18 @@ void ThrowIn(Result (*Table::*kernel)(Arguments...), Table* table) {
 #define STARFOCUS_DECLARE_CASE(Kernel) void Kernel(Draw* draw, CallOf<Table>* call);
 #define STARFOCUS_LIST_CASE(Kernel) \
   {#Kernel, Kernel, [](Table* table) { ThrowIn(&Table::Kernel, table); }},
-namespace kernel_cases {
-using namespace starfocus::simd;
-using Table = Kernels;
-STARFOCUS_KERNELS(STARFOCUS_DECLARE_CASE)
-inline constexpr CaseOf<Table> kAll[] = {STARFOCUS_KERNELS(STARFOCUS_LIST_CASE)};
-}  // namespace kernel_cases
-namespace depth_cases {
-using namespace starfocus::simd;
-using Table = DepthKernels;
-STARFOCUS_DEPTH_KERNELS(STARFOCUS_DECLARE_CASE)
-inline constexpr CaseOf<Table> kAll[] = {STARFOCUS_DEPTH_KERNELS(STARFOCUS_LIST_CASE)};
-}  // namespace depth_cases
-namespace image_cases {
-using namespace starfocus::simd;
-using Table = ImageKernels;
-STARFOCUS_IMAGE_KERNELS(STARFOCUS_DECLARE_CASE)
-inline constexpr CaseOf<Table> kAll[] = {STARFOCUS_IMAGE_KERNELS(STARFOCUS_LIST_CASE)};
-}  // namespace image_cases
-namespace line_scan_cases {
-using namespace starfocus::simd;
-using Table = LineScanKernels;
-STARFOCUS_LINE_SCAN_KERNELS(STARFOCUS_DECLARE_CASE)
-inline constexpr CaseOf<Table> kAll[] = {STARFOCUS_LINE_SCAN_KERNELS(STARFOCUS_LIST_CASE)};
-}  // namespace line_scan_cases
+#define STARFOCUS_CASES(cases, OfTable, List)                            \
+  namespace cases {                                                      \
+  using namespace starfocus::simd;                                       \
+  using Table = OfTable;                                                 \
+  List(STARFOCUS_DECLARE_CASE) inline constexpr CaseOf<Table> kAll[] = { \
+      List(STARFOCUS_LIST_CASE)};                                        \
+  }
+STARFOCUS_CASES(kernel_cases, Kernels, STARFOCUS_KERNELS)
+STARFOCUS_CASES(depth_cases, DepthKernels, STARFOCUS_DEPTH_KERNELS)
+STARFOCUS_CASES(image_cases, ImageKernels, STARFOCUS_IMAGE_KERNELS)
+STARFOCUS_CASES(line_scan_cases, LineScanKernels, STARFOCUS_LINE_SCAN_KERNELS)
+#undef STARFOCUS_CASES
 #undef STARFOCUS_DECLARE_CASE
 #undef STARFOCUS_LIST_CASE
 

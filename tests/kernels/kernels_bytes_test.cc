@@ -111,6 +111,23 @@ TEST_CASE("kernels: on every target, HalvesToDepth converts all half floats corr
   }
 }
 
+TEST_CASE("kernels: BlendRows and UpsampleRow interpolate known disparities on one surface only") {
+  // A blend is a weighted mean if the disparities differ by at most kBlendStep, and otherwise the
+  // nearer value in the picture.
+  const ImageKernels& kernels = ReferenceImageKernels();
+  const int16_t a[] = {0, 0, 0, kNoSurface}, b[] = {96, 97, -96, 5};
+  std::vector<int16_t> out(4);
+  using Row = std::vector<int16_t>;
+  kernels.BlendRows(a, b, 4, 64, out.data());
+  CHECK(out == Row{24, 0, -24, kNoSurface});
+  kernels.BlendRows(a, b, 4, 128, out.data());
+  CHECK(out == Row{48, 97, -48, 5});
+  const int16_t row[] = {0, 80, 1000};
+  const uint32_t columns[] = {7 * 256, 7 * 256 + 128, 8 * 256 + 127, 8 * 256 + 128};
+  kernels.UpsampleRow(row, columns, 4, 7, out.data());
+  CHECK(out == Row{0, 40, 80, 1000});
+}
+
 // A function that makes a call of the kernel Narrow wrong, and the start of the expected complaint.
 struct Spoilt {
   const char* complaint;

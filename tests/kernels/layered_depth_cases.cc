@@ -44,12 +44,10 @@ void FindEdges(Draw* draw, KernelCall* call) {
   auto* behind = call->Results<int16_t>("behind", whole);
   auto* distance = call->Results<uint8_t>("distance", (rows - 1) * whole);
   std::fill_n(moved, whole, int16_t{INT16_MAX});
-  call->Runs([=](const Kernels& kernels) {
-    for (size_t row = 1; row < rows; ++row) {
-      const int16_t* near = disparity + row * whole;
-      uint8_t* distances = distance + (row - 1) * whole;
-      kernels.FindEdges(near, near - whole, step, unit_bits, count, moved, behind, distances);
-    }
+  call->RunsEach(rows - 1, [=](const Kernels& kernels, size_t row) {
+    const int16_t* before = disparity + row * whole;
+    kernels.FindEdges(before + whole, before, step, unit_bits, count, moved, behind,
+                      distance + row * whole);
   });
 }
 
@@ -72,11 +70,9 @@ void FindCopies(Draw* draw, KernelCall* call) {
   auto* copies = call->Results<int16_t>("copies", rows * samples);
   auto* strips = call->Results<uint64_t>("strips", rows);
   const int16_t* first = field + stride + 1;
-  call->Runs([=](const Kernels& kernels) {
-    for (size_t y = 0; y < rows; ++y) {
-      strips[y] = kernels.FindCopies(first + y * stride, ptrdiff_t(stride), count, least, most,
-                                     copies + y * samples);
-    }
+  call->RunsEach(rows, [=](const Kernels& kernels, size_t y) {
+    strips[y] = kernels.FindCopies(first + y * stride, ptrdiff_t(stride), count, least, most,
+                                   copies + y * samples);
   });
 }
 
@@ -91,11 +87,10 @@ void ColourCopies(Draw* draw, KernelCall* call) {
   for (int16_t& copy : lower) copy = draw->Int(0, 3) == 0 ? kNoSurface : copy;
   const int16_t* copies = call->Input("copies", lower, kPadding);
   auto* out = call->Results<int16_t>("out", 3 * groups * kSliceLanes);
-  call->Runs([=](const Kernels& kernels) {
-    for (size_t n = 0; n < groups * kSliceLanes; n += kSliceLanes) {
-      kernels.ColourCopies(row + n, ptrdiff_t(stride), copies + n, rgb + n, plane,
-                           groups * kSliceLanes, out + n);
-    }
+  call->RunsEach(groups, [=](const Kernels& kernels, size_t group) {
+    const size_t n = group * kSliceLanes;
+    kernels.ColourCopies(row + n, ptrdiff_t(stride), copies + n, rgb + n, plane,
+                         groups * kSliceLanes, out + n);
   });
 }
 
@@ -106,10 +101,8 @@ void BesideSteps(Draw* draw, KernelCall* call) {
   const int16_t* field = call->Input("field", Disparities((rows + 2) * stride, draw), kPadding);
   auto* beside = call->Results<uint16_t>("beside", rows * strips);
   const int16_t* first = field + stride + 1;
-  call->Runs([=](const Kernels& kernels) {
-    for (size_t y = 0; y < rows; ++y) {
-      kernels.BesideSteps(first + y * stride, ptrdiff_t(stride), count, kStep, beside + y * strips);
-    }
+  call->RunsEach(rows, [=](const Kernels& kernels, size_t y) {
+    kernels.BesideSteps(first + y * stride, ptrdiff_t(stride), count, kStep, beside + y * strips);
   });
 }
 
@@ -274,10 +267,8 @@ struct HiddenField {
 void FindHidden(Draw* draw, KernelCall* call) {
   const DepthField field = MakeField(draw, call);
   const HiddenField hidden(field, call);
-  call->Runs([=](const Kernels& kernels) {
-    for (int y = 0; y < field.height; ++y) {
-      hidden.strips[y] = kernels.FindHidden(field.Row(y), hidden.Row(field.stride * size_t(y)));
-    }
+  call->RunsEach(size_t(field.height), [=](const Kernels& kernels, size_t y) {
+    hidden.strips[y] = kernels.FindHidden(field.Row(int(y)), hidden.Row(field.stride * y));
   });
   call->is_right = [=](uint64_t, Met* met) {
     const size_t groups = field.stride / kSliceLanes;

@@ -67,7 +67,7 @@ struct Phases {
 // Makes a call of a kernel that filters lines. The taps of the filter are 3 or `count` + 1 samples
 // apart.
 template <class Filter>
-void FilterLine(Filter filter, Draw* draw, KernelCall* call) {
+void FilterLine(Filter Kernels::*kernel, Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, kLongestSamples, kTimedSamples);
   const size_t step = draw->Rarely(2) ? count + 1 : 3;
   const auto samples = Samples(count + 6 * step, false, draw);
@@ -76,9 +76,7 @@ void FilterLine(Filter filter, Draw* draw, KernelCall* call) {
   const bool all = draw->Int(0, 1) != 0;
   const int16_t low = all ? INT16_MIN : int16_t{0}, high = all ? INT16_MAX : kLayerWhite;
   auto* out = call->Results<int16_t>("out", count);
-  call->Runs([=](const Kernels& kernels) {
-    filter(kernels)(in, ptrdiff_t(step), taps, count, low, high, out);
-  });
+  call->Calls(kernel, in, ptrdiff_t(step), taps, count, low, high, out);
 }
 
 }  // namespace
@@ -123,7 +121,7 @@ void FinishLayer(Draw* draw, KernelCall* call) {
 }
 
 void FilterHalfBand(Draw* draw, KernelCall* call) {
-  FilterLine([](const Kernels& kernels) { return kernels.FilterHalfBand; }, draw, call);
+  FilterLine(&Kernels::FilterHalfBand, draw, call);
 }
 
 void Halve(Draw* draw, KernelCall* call) {
@@ -135,8 +133,6 @@ void Halve(Draw* draw, KernelCall* call) {
   call->Calls(&Kernels::Halve, even, odd, taps, count, out);
 }
 
-void Between(Draw* draw, KernelCall* call) {
-  FilterLine([](const Kernels& kernels) { return kernels.Between; }, draw, call);
-}
+void Between(Draw* draw, KernelCall* call) { FilterLine(&Kernels::Between, draw, call); }
 
 }  // namespace test::kernel_cases

@@ -48,11 +48,9 @@ void FindBeyond(Draw* draw, KernelCall* call) {
   const auto step = int16_t(draw->Int(0, 400));
   auto* beyond = call->Results<int16_t>("beyond", rows * kSliceLanes);
   auto* square = call->Results<int16_t>("square", rows * kSliceLanes);
-  call->Runs([=](const Kernels& kernels) {
-    for (size_t y = 0; y < rows; ++y) {
-      const size_t at = y * kSliceLanes;
-      kernels.FindBeyond(field + y * stride, ptrdiff_t(stride), step, beyond + at, square + at);
-    }
+  call->RunsEach(rows, [=](const Kernels& kernels, size_t y) {
+    const size_t at = y * kSliceLanes;
+    kernels.FindBeyond(field + y * stride, ptrdiff_t(stride), step, beyond + at, square + at);
   });
 }
 
@@ -63,12 +61,10 @@ void CoverPlaces(Draw* draw, KernelCall* call) {
   const int16_t* far = call->Input("far", TwoSurfaces(rows * kSliceLanes, draw));
   const CoverView view = DrawView(draw);
   auto* covered = call->Results<int16_t>("covered", rows * kSliceLanes);
-  call->Runs([=](const Kernels& kernels) {
-    std::fill(covered, covered + rows * kSliceLanes, int16_t{100});
-    for (size_t y = 0; y < rows; ++y) {
-      const size_t at = y * kSliceLanes;
-      kernels.CoverPlaces(near + at, coverage + at, far + at, view, covered + at);
-    }
+  call->RunsEach(rows, [=](const Kernels& kernels, size_t y) {
+    const size_t at = y * kSliceLanes;
+    std::fill_n(covered + at, kSliceLanes, int16_t{100});
+    kernels.CoverPlaces(near + at, coverage + at, far + at, view, covered + at);
   });
 }
 
@@ -87,14 +83,12 @@ void SumNear(Draw* draw, KernelCall* call) {
     call->IgnoreRows(plane - at + width, height, stride, stride - width);
   }
   auto* sums = call->Results<int16_t>("sums", rows * 4 * kSliceLanes);
-  call->Runs([=](const Kernels& kernels) {
-    for (size_t y = 0; y < rows; ++y) {
-      const size_t row = y * stride;
-      const int16_t* const light[] = {lights[0] + row, lights[1] + row, lights[2] + row};
-      int16_t of_row[4][kSliceLanes];
-      kernels.SumNear(light, disparity + row, weights + row, ptrdiff_t(stride), most_step, of_row);
-      std::copy_n(of_row[0], 4 * kSliceLanes, sums + y * 4 * kSliceLanes);
-    }
+  call->RunsEach(rows, [=](const Kernels& kernels, size_t y) {
+    const size_t row = y * stride;
+    const int16_t* const light[] = {lights[0] + row, lights[1] + row, lights[2] + row};
+    int16_t of_row[4][kSliceLanes];
+    kernels.SumNear(light, disparity + row, weights + row, ptrdiff_t(stride), most_step, of_row);
+    std::copy_n(of_row[0], 4 * kSliceLanes, sums + y * 4 * kSliceLanes);
   });
 }
 
