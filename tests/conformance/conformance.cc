@@ -58,9 +58,14 @@ struct Visit {
     const starfocus::Block& b = *std::find_if(
         plan.blocks.begin(), plan.blocks.end(),
         [&](const auto& block) { return block.rect.x == told->x && block.rect.y == told->y; });
-    visit.blocks->push_back({b.rect.x, b.rect.y, b.rect.width, b.rect.height, b.layer, b.n,
-                             b.rendered.x, b.rendered.y, b.rendered.width, b.rendered.height,
-                             b.border.left, b.border.right, b.border.top, b.border.bottom,
+    visit.blocks->push_back({b.rect.x,
+                             b.rect.y,
+                             b.rect.width,
+                             b.rect.height,
+                             b.layer,
+                             b.n,
+                             {b.rendered.x, b.rendered.y, b.rendered.width, b.rendered.height,
+                              b.border.left, b.border.right, b.border.top, b.border.bottom},
                              GatheredCells(plan.gathered, b)});
   }
 };
@@ -322,7 +327,8 @@ void CheckFrame(const Trial& trial, const starfocus_report& report,
   CHECK(report.rendered_views == views);
   for (const reference::Block& block : blocks) {
     CHECK(block.n == n);
-    for (const int border : {block.left, block.right, block.top, block.bottom}) {
+    const reference::Rectangle& rect = block.rendered;
+    for (const int border : {rect.left, rect.right, rect.top, rect.bottom}) {
       CHECK(border == int(std::ceil(r_max)) + 2);
     }
   }

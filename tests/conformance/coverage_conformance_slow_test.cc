@@ -175,9 +175,7 @@ TEST_CASE("coverage: the engine splits random strands like the reference") {
     for (const bool parallax : {true, false}) {
       Distance all;
       for (uint64_t seed = 1; seed <= 12; ++seed) {
-        CAPTURE(given);
-        CAPTURE(parallax);
-        CAPTURE(seed);
+        CAPTURES(given, parallax, seed);
         all.Add(Check(RandomStrands(given, parallax, seed)));
       }
       CHECK(all.parted > (parallax ? 10000 : 20000));

@@ -179,7 +179,7 @@ Part Up(const Part& from, int x, int y, int width, int height) {
 // Upsamples the rendered pixels of a block's layer and returns the block's rectangle of the
 // picture.
 Picture Finished(const Block& block, const Picture& rendered) {
-  Part part = {block.rendered_x, block.rendered_y, rendered};
+  Part part = {block.rendered.x, block.rendered.y, rendered};
   if (block.layer == 2) {
     part = Up(part, (block.x >> 1) - 2, (block.y >> 1) - 2, (block.width + 1) / 2 + 4,
               (block.height + 1) / 2 + 4);
@@ -262,14 +262,12 @@ void RefocusAll(const LightField& field, const starfocus::Params& params,
     const ApertureShape here = ApertureShape(params).At(block.x, block.y, block.width, block.height,
                                                         centre.width, centre.height);
     const Lens lens = MakeLens(params, here, block.n, block.layer, by_subaperture);
-    const Rectangle rectangle = {
-        block.rendered_x, block.rendered_y, block.rendered_width, block.rendered_height, block.left,
-        block.right,      block.top,        block.bottom};
+    const Rectangle& rectangle = block.rendered;
     // Upsampling reads the block at its layer, with a margin as wide as the filter of `Up`.
     const int scale = 1 << block.layer, margin = block.layer == 0 ? 0 : block.layer + 1;
     Block framed = block;
-    framed.rendered_x = block.x / scale - margin;
-    framed.rendered_y = block.y / scale - margin;
+    framed.rendered.x = block.x / scale - margin;
+    framed.rendered.y = block.y / scale - margin;
     Picture frame((block.width + scale - 1) / scale + 2 * margin,
                   (block.height + scale - 1) / scale + 2 * margin);
     const Picture& layer = layers[size_t(block.layer)];
@@ -277,9 +275,9 @@ void RefocusAll(const LightField& field, const starfocus::Params& params,
       const Picture rendered = by_subaperture
                                    ? CompositeRectangle(field, layer, lens, rectangle, slicing)
                                    : RefocusRectangle(field, layer, lens, rectangle);
-      Paste(rendered, rectangle.x - framed.rendered_x, rectangle.y - framed.rendered_y, &frame);
+      Paste(rendered, rectangle.x - framed.rendered.x, rectangle.y - framed.rendered.y, &frame);
     }
-    GatherCells(field, layer, block, lens, r_max, framed.rendered_x, framed.rendered_y, &frame);
+    GatherCells(field, layer, block, lens, r_max, framed.rendered.x, framed.rendered.y, &frame);
     Put(Finished(framed, frame), block.x, block.y, centre.width, rgb);
   }
 }

@@ -34,14 +34,18 @@ struct GatheredCell {
   int at_x, at_y, at_width, at_height;  // Rectangle of the cell, in pixels of the block's layer.
 };
 
+// A rectangle of a layer, and the widths of the border that is read to render the rectangle, in
+// pixels of the layer.
+struct Rectangle {
+  int x, y, width, height;
+  int left, right, top, bottom;
+};
+
 // A block of block mode, and the rectangle of the layer that the views of this block render.
 struct Block {
   int x, y, width, height;  // in the picture
   int layer, n;
-  // Rendered rectangle with margins, in pixels of the layer.
-  int rendered_x, rendered_y, rendered_width, rendered_height;
-  // Border around the rendered rectangle, in pixels of the layer.
-  int left, right, top, bottom;
+  Rectangle rendered;                  // with margins
   std::vector<GatheredCell> gathered;  // Cells blurred by a filter instead of rendered by views.
 };
 
@@ -72,28 +76,18 @@ std::vector<PartedPixel> PartPixels(const test::Scene& scene, int transfer);
 // Returns the light of all views of a scene, and the disparities of the centre view.
 LightField Load(const test::Scene& scene, int transfer);
 
-// A rectangle of a layer, and the widths of the border that is read to render the rectangle, in
-// pixels of the layer.
-struct Rectangle {
-  int x, y, width, height;
-  int left, right, top, bottom;
-};
-
 struct Direction {
   int x, y;
 };
 constexpr Direction kDirections[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 
-// Returns a rectangle with its border, from a layer of the centre view. Beyond the layer, the edge
-// pixels are repeated.
-Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect);
-
-// Continues the surface at the edge of `picture` (at layer 0) beyond the picture, with colours from
-// the captured view on that side. The colours from the view extend as far beyond the picture as the
-// surface moves per unit of u. The extension is shorter if one of the 32 pixels inside the edge
-// covers the surface in the captured view.
-void ExtendEdges(const LightField& field, const Picture& picture, int layer, const Rectangle& rect,
-                 Picture* extended);
+// Returns a rectangle with its border, from `picture`, the centre view at a layer. Beyond the
+// layer, the edge pixels are repeated. The surface at the edge of the centre view is continued
+// beyond the picture with colours from the captured view on that side. These colours extend as far
+// beyond the picture as the surface moves per unit of u. The extension is shorter if one of the 32
+// pixels inside the edge covers the surface in the captured view.
+Picture ExtendedRectangle(const LightField& field, const Picture& picture, int layer,
+                          const Rectangle& rect);
 
 // Mixture of a pixel (x, y) of the centre view next to a depth edge. At the edge, the disparity
 // increases by more than `step` (in 1/64 pixel) in the direction `side`. `share` is the part of the

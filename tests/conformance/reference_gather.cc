@@ -17,14 +17,10 @@ struct Interval {
   double low, high;
 };
 
-// LadderBelow returns the largest radius of a stored PSF that is at most `radius`, and LadderAbove
-// returns the smallest radius that is at least `radius`. `radius` is in 1/kOne pixels; the results
-// are in pixels.
-double LadderBelow(int radius) {
-  return std::floor(radius / LadderUnit(radius)) * LadderUnit(radius) / kOne;
-}
-double LadderAbove(int radius) {
-  return std::ceil(radius / LadderUnit(radius)) * LadderUnit(radius) / kOne;
+// Returns the radius of a stored PSF in pixels: `round` is std::floor for the largest radius of at
+// most `radius`, in 1/kOne pixels, and std::ceil for the smallest radius of at least `radius`.
+double OnLadder(int radius, double (*round)(double)) {
+  return round(radius / LadderUnit(radius)) * LadderUnit(radius) / kOne;
 }
 
 // Returns the mean square of one coordinate in the opening, weighted by light, relative to the
@@ -138,9 +134,7 @@ class Gather {
   Picture Around(const GatheredCell& cell, int border) const {
     const Rectangle rectangle = {cell.at_x, cell.at_y, cell.at_width, cell.at_height,
                                  border,    border,    border,        border};
-    Picture extended = ExtendedRectangle(of_layer_, rectangle);
-    ExtendEdges(field_, picture_, block_.layer, rectangle, &extended);
-    return extended;
+    return ExtendedRectangle(field_, of_layer_, block_.layer, rectangle);
   }
 
   Colour& Out(int x, int y) { return frame_.colours[frame_.At(x - frame_x_, y - frame_y_)]; }
@@ -171,8 +165,9 @@ class Gather {
   // gradient of the radius.
   void OnSlope(const GatheredCell& cell) {
     const Interval range = IntervalOf(cell);
-    const Interval between = {std::min(LadderBelow(int(std::floor(range.low * kOne))), largest_),
-                              std::min(LadderAbove(int(std::ceil(range.high * kOne))), largest_)};
+    const Interval between = {
+        std::min(OnLadder(int(std::floor(range.low * kOne)), std::floor), largest_),
+        std::min(OnLadder(int(std::ceil(range.high * kOne)), std::ceil), largest_)};
     const Psf less = PsfOf(between.low, lens_.opening);
     const Psf more = PsfOf(between.high, lens_.opening);
     const int border = more.size;

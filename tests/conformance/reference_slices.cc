@@ -363,8 +363,7 @@ void CompositeBucket(const SurfaceMap& map, const Picture& extended, const Lens&
 
 Picture CompositeRectangle(const LightField& field, const Picture& centre, const Lens& lens,
                            const Rectangle& rectangle, const Slicing& slicing) {
-  Picture extended = ExtendedRectangle(centre, rectangle);
-  ExtendEdges(field, field.at({0, 0}), lens.layer, rectangle, &extended);
+  const Picture extended = ExtendedRectangle(field, centre, lens.layer, rectangle);
   SurfaceMap map = FindLayeredDepth(field, extended, lens, rectangle.x - rectangle.left,
                                     rectangle.y - rectangle.top);
   // Surfaces inside the range in focus belong to one slice.

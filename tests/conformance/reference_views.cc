@@ -170,17 +170,6 @@ Colour ReadMoved(const LightField& field, int layer, const Position& view, int x
               y - Moved(view.second, disparity, layer));
 }
 
-Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect) {
-  const int x0 = rect.x - rect.left, y0 = rect.y - rect.top;
-  Picture centre(rect.left + rect.width + rect.right, rect.top + rect.height + rect.bottom);
-  ForEachPixel(centre.width, centre.height, [&](int x, int y) {
-    const size_t from = layer.Nearest(x0 + x, y0 + y);
-    centre.colours[centre.At(x, y)] = layer.colours[from];
-    centre.disparities[centre.At(x, y)] = layer.disparities[from];
-  });
-  return centre;
-}
-
 namespace {
 
 // Returns the number of pixels beyond the edge at (x, y) of the layer that a captured view shows.
@@ -207,14 +196,19 @@ int SeenBeyond(const Picture& picture, int layer, int x, int y, const Direction&
 
 }  // namespace
 
-void ExtendEdges(const LightField& field, const Picture& picture, int layer, const Rectangle& rect,
-                 Picture* extended) {
+Picture ExtendedRectangle(const LightField& field, const Picture& of_layer, int layer,
+                          const Rectangle& rect) {
+  const Picture& picture = field.at({0, 0});
   const int x0 = rect.x - rect.left, y0 = rect.y - rect.top;
   const int right = ((picture.width - 1) >> layer), bottom = ((picture.height - 1) >> layer);
-  ForEachPixel(extended->width, extended->height, [&](int column, int row) {
+  Picture extended(rect.left + rect.width + rect.right, rect.top + rect.height + rect.bottom);
+  ForEachPixel(extended.width, extended.height, [&](int column, int row) {
     const int x = x0 + column, y = y0 + row;
     const Direction out = {(x > right) - (x < 0), (y > bottom) - (y < 0)};
-    // ExtendEdges changes no pixels inside the picture or beyond its corners.
+    const size_t at = extended.At(column, row), from = of_layer.Nearest(x, y);
+    extended.colours[at] = of_layer.colours[from];
+    extended.disparities[at] = of_layer.disparities[from];
+    // Captured views continue the picture neither inside nor beyond its corners.
     if ((out.x == 0) == (out.y == 0)) return;
     const int edge_x = std::clamp(x, 0, right), edge_y = std::clamp(y, 0, bottom);
     const int disparity =
@@ -227,9 +221,10 @@ void ExtendEdges(const LightField& field, const Picture& picture, int layer, con
         SeenBeyond(picture, layer, edge_x, edge_y, out, std::abs(out.x != 0 ? u : v), disparity);
     const int k = std::min(seen, std::abs(x - edge_x) + std::abs(y - edge_y));
     if (seen == 0) return;
-    extended->colours[extended->At(column, row)] = ReadMoved(
-        field, layer, occlusion_views[0], edge_x + out.x * k, edge_y + out.y * k, disparity);
+    extended.colours[at] = ReadMoved(field, layer, occlusion_views[0], edge_x + out.x * k,
+                                     edge_y + out.y * k, disparity);
   });
+  return extended;
 }
 
 namespace {
@@ -263,8 +258,7 @@ class Views {
         rect_(rect),
         x_(rect.x - rect.left),
         y_(rect.y - rect.top),
-        centre_(ExtendedRectangle(layer, rect)) {
-    ExtendEdges(field, field.at({0, 0}), lens.layer, rect, &centre_);
+        centre_(ExtendedRectangle(field, layer, lens.layer, rect)) {
     Unmix(field, lens, rect, &centre_);
   }
 

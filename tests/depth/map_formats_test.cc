@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "starfocus/depth.h"
-#include "starfocus/starfocus.hpp"
 #include "tests/depth/depth_scene.h"
 #include "tests/operations/operations.h"
 #include "tests/support/config.h"

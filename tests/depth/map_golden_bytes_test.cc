@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "starfocus/depth.h"
 #include "tests/depth/depth_scene.h"
 
 namespace map_golden_bytes_test {

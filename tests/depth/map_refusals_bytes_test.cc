@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "starfocus/depth.h"
-#include "starfocus/starfocus.hpp"
 #include "tests/depth/depth_scene.h"
 #include "tests/support/config.h"
 

@@ -11,8 +11,6 @@
 #include <limits>
 #include <vector>
 
-#include "starfocus/depth.h"
-#include "starfocus/starfocus.hpp"
 #include "tests/depth/depth_scene.h"
 #include "tests/depth/disc_photo.h"
 #include "tests/support/hair.h"

@@ -9,7 +9,6 @@
 #include <initializer_list>
 #include <vector>
 
-#include "starfocus/starfocus.hpp"
 #include "tests/depth/depth_scene.h"
 #include "tests/support/config.h"
 

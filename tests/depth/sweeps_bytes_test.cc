@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "starfocus/depth.h"
 #include "tests/depth/depth_scene.h"
 #include "tests/support/config.h"
 

@@ -11,12 +11,13 @@
 namespace test::image_cases {
 namespace {
 
-constexpr int kLongestPixels = 2 * 64 + 67;
+// Longest row in pixels: more than two of the widest vectors.
+constexpr int kLongestRow = 2 * 64 + 67;
 
 }  // namespace
 
 void PixelsToRgb(Draw* draw, ImageCall* call) {
-  const size_t count = draw->Length(1, kLongestPixels, 1024);
+  const size_t count = draw->Length(1, kLongestRow, 1024);
   const size_t step = draw->Size(3, 4, 3);
   const bool blue_first = draw->Int(0, 1) != 0;
   // The memory of `pixels` ends with the colours of the last pixel, even if pixels have a fourth
@@ -27,7 +28,7 @@ void PixelsToRgb(Draw* draw, ImageCall* call) {
 }
 
 void RgbToPixels(Draw* draw, ImageCall* call) {
-  const size_t count = draw->Length(1, kLongestPixels, 1024);
+  const size_t count = draw->Length(1, kLongestRow, 1024);
   const size_t step = draw->Size(3, 4, 3);
   const bool blue_first = draw->Int(0, 1) != 0;
   const uint8_t* rgb = call->Input("rgb", RandomBytes(3 * count, draw));
@@ -36,9 +37,6 @@ void RgbToPixels(Draw* draw, ImageCall* call) {
 }
 
 namespace {
-
-// Longest row in pixels: more than two of the widest vectors.
-constexpr int kLongestRow = 2 * 64 + 67;
 
 // Returns random coefficients. The largest random coefficients slightly exceed the coefficients of
 // all formats.

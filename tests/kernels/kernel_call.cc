@@ -2,7 +2,6 @@
 #include "tests/kernels/kernel_call.h"
 
 #include <algorithm>
-#include <cstring>
 #include <stdexcept>
 
 namespace test {

@@ -12,6 +12,9 @@ namespace test::depth_cases {
 namespace {
 
 constexpr int kTimedPlane = 512, kLongestPlane = 2 * 64 + 3;
+constexpr int kMostLabels = 40, kTimedLabels = 44, kLongest = 70, kTimed = 320;
+// Largest shift of a view at any label, in pixels.
+constexpr int kReach = 5;
 
 }  // namespace
 
@@ -32,14 +35,6 @@ void InterpolateRow(Draw* draw, DepthCall* call) {
   uint8_t* out = call->Results<uint8_t>("out", count, SliceSamples(count) - count);
   call->Calls(&DepthKernels::InterpolateRow, row, next, across, down, count, out);
 }
-
-namespace {
-
-constexpr int kMostLabels = 40, kTimedLabels = 44, kLongest = 70, kTimed = 320;
-// Largest shift of a view at any label, in pixels.
-constexpr int kReach = 5;
-
-}  // namespace
 
 void CostLabels(Draw* draw, DepthCall* call) {
   const size_t count = draw->Length(1, kLongest, kTimed);
