@@ -244,6 +244,12 @@ struct Tally {
 };
 using Tallies = Tally[kSizes][3];
 
+int SideOf(const Border& border, int side) {
+  return side == kLeft    ? border.left
+         : side == kRight ? border.right
+         : side == kTop   ? border.top
+                          : border.bottom;
+}
 int Sum(const Border& border) { return border.left + border.right + border.top + border.bottom; }
 
 void CheckBlock(const Map& map, int x0, int y0, int level, double largest, const BlockStats& stats,
@@ -342,109 +348,31 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("cells: the borders for a constant blur equal the blur, to within a pixel and a cell") {
-  Map map = EmptyMap(64, 64, 0, 1);
-  for (const double r : {0.0, 0.25, 1.0, 2.5, 7.0, 11.5, 30.0}) {
-    std::fill(map.disparity.begin(), map.disparity.end(), Fixed(r));
-    const int around = test::BordersOf(r).cells;
-    const Cells cells(map, 0, 64, around);
-    const BlockStats stats = test::MeasureBlock(cells.grid, map.scale, 2, 2, around);
-    CAPTURE(r);
-    CHECK(stats.r_min == int(r * kDisparityOne));
-    CHECK(stats.r_max == int(r * kDisparityOne));
-    for (int layer = 0; layer < 3; ++layer) {
-      const int needed = int(std::floor(r + 0.5)) + (r >= 0.5 ? kUpsampleBorder[layer] : 0);
-      const Border& border = stats.border[layer];
-      for (const int side : {border.left, border.right, border.top, border.bottom}) {
-        CHECK(side >= needed);
-        CHECK(side <=
-              needed + (needed == 0 && layer == 0 ? 1 : kCellSize + kUpsampleBorder[layer]));
-      }
-    }
-  }
-}
-
-TEST_CASE("cells: the border of a pixel with a large blur is measured from the pixel's position") {
-  Map map = EmptyMap(24, 24, 0, 1);
-  const auto reach = [&](int side) {
-    return Cells(map, 0, 24, 1).grid.At(1, 1)->Reach(size_t(side));
-  };
-  std::fill(map.disparity.begin(), map.disparity.end(), Fixed(3));
-  const int farther = reach(starfocus::kLeft);
-  std::fill(map.disparity.begin(), map.disparity.end(), Fixed(2));
-  const int all = reach(starfocus::kLeft);
-  CHECK(farther == all + 1);
-  // A pixel at least one pixel inside the cell does not reach farther than the pixels at the side
-  // of the cell.
-  map.At(8 + 5, 8 + 6) = Fixed(3);
-  for (int side = 0; side < 4; ++side) CHECK(reach(side) == all);
-  map.At(8, 8 + 4) = Fixed(3);
-  CHECK(reach(starfocus::kLeft) == farther);
-  CHECK(reach(starfocus::kRight) == all);
-}
-
 TEST_CASE("cells: a pixel out of focus widens only the borders of blocks that the pixel reaches") {
-  // Pixel (24 + k, 40) has radius 5 and is next to the block of 16x16 pixels at (32, 32).
-  for (int k = 0; k < 8; ++k) {
-    Map map = EmptyMap(96, 96, 0, 1);
-    map.At(24 + k, 40) = Fixed(5);
-    const Cells cells(map, 0, 96, 3);
-    const BlockStats stats = test::MeasureBlock(cells.grid, map.scale, 4, 4, 3);
-    CAPTURE(k);
-    const int distance = 8 - k;
-    const int needed = distance <= 5 ? distance : 0;
-    CHECK(stats.border[0].left >= needed);
-    CHECK(stats.border[0].left <= std::max(1, distance <= 6 ? distance : 0));
-    CHECK(stats.border[0].right <= 1);
-    CHECK(stats.border[0].top <= 1);
-    CHECK(stats.border[0].bottom <= 1);
-    if (needed > 0) CHECK(stats.r_max >= 5 * kDisparityOne);
-    CHECK(stats.r_min == 0);
-    // Blocks that the defocused pixel does not reach need no border for the pixel, and their r_max
-    // ignores the pixel's radius.
-    for (const int column : {7, 8}) {
-      const BlockStats far = test::MeasureBlock(cells.grid, map.scale, column, 4, 3);
-      CHECK(far.border[0].left <= 1);
-      CHECK(far.r_max == 0);
+  // A pixel of radius 5 lies beside the block of 16x16 pixels at (32, 32).
+  for (int distance = 1; distance <= 8; ++distance) {
+    for (int side = 0; side < 4; ++side) {
+      CAPTURES(distance, side);
+      const bool across = side == kTop || side == kBottom,
+                 after = side == kRight || side == kBottom;
+      const int at = after ? 47 + distance : 32 - distance, far = after ? 2 : 6;
+      Map map = EmptyMap(96, 96, 0, 1);
+      map.At(across ? 40 : at, across ? at : 40) = Fixed(5);
+      const Cells cells(map, 0, 96, 3);
+      const BlockStats stats = test::MeasureBlock(cells.grid, map.scale, 4, 4, 3);
+      // The block on the other side is not reached, so that its r_max ignores the pixel.
+      const BlockStats other =
+          test::MeasureBlock(cells.grid, map.scale, across ? 4 : far, across ? far : 4, 3);
+      for (int of = 0; of < 4; ++of) {
+        CHECK(SideOf(stats.border[0], of) >= (of == side && distance <= 5 ? distance : 0));
+        CHECK(SideOf(stats.border[0], of) <= (of == side && distance <= 6 ? distance : 1));
+        CHECK(SideOf(other.border[0], of) <= 1);
+      }
+      if (distance <= 5) CHECK(stats.r_max >= 5 * kDisparityOne);
+      CHECK(stats.r_min == 0);
+      CHECK(other.r_max == 0);
     }
   }
-}
-
-TEST_CASE(
-    "cells: borders of BordersOf are as wide as the block analysis requires, and no cell wider") {
-  test::Random random(12);
-  int short_sighted = 0;  // number of blocks that require all cells of the border
-  for (const double r : {0.1, 1.0, 4.9, 13.3, 32.0, 60.0}) {
-    const starfocus::Borders borders = test::BordersOf(r);
-    Map map = EmptyMap(280, 280, 0, 1);
-    for (int16_t& d : map.disparity) d = Fixed(random.Real(-r, r));
-    const Cells cells(map, 0, 280, borders.cells);
-    const Cells wide(map, 0, 280, borders.cells + 3);
-    for (int column = 14; column < 20; ++column) {
-      const BlockStats stats = test::MeasureBlock(cells.grid, map.scale, column, 16, borders.cells);
-      const BlockStats wider =
-          test::MeasureBlock(wide.grid, map.scale, column, 16, borders.cells + 3);
-      CAPTURE(r);
-      CHECK(stats.r_max == wider.r_max);
-      for (int layer = 0; layer < 3; ++layer) {
-        const Border& border = stats.border[layer];
-        const Border& same = wider.border[layer];
-        CHECK(border.left == same.left);
-        CHECK(border.right == same.right);
-        CHECK(border.top == same.top);
-        CHECK(border.bottom == same.bottom);
-      }
-      const BlockStats shorter =
-          test::MeasureBlock(cells.grid, map.scale, column, 16, borders.cells - 1);
-      short_sighted += shorter.border[2].left != stats.border[2].left;
-      const Border& border = stats.border[0];
-      // A subaperture extends over a neighbouring pixel, which requires one more pixel of border.
-      for (const int side : {border.left, border.right, border.top, border.bottom}) {
-        CHECK(side + 1 <= borders.layer[0]);
-      }
-    }
-  }
-  CHECK(short_sighted > 0);
 }
 
 }  // namespace

@@ -20,36 +20,25 @@ using namespace starfocus;
 double Below(double value) { return std::nextafter(value, 0.0); }
 double Above(double value) { return std::nextafter(value, 1e9); }
 
-TEST_CASE("rules: N by (9) is the ceiling of a radius below 4, and 4 up to 4 / 0.787") {
+TEST_CASE("rules: N by (9) is the ceiling of the radius below 4, and of 0.787 times larger radii") {
   CHECK(ViewsByPaper(0) == 0);
   CHECK(ViewsByPaper(std::numeric_limits<double>::denorm_min()) == 1);
-  for (int r = 1; r <= 4; ++r) {
-    CAPTURE(r);
-    CHECK(ViewsByPaper(Below(r)) == r);
-    CHECK(ViewsByPaper(r) == r);
-    CHECK(ViewsByPaper(Above(r)) == std::min(r + 1, 4));
-  }
-  constexpr double kThreshold = 4 / 0.787;
-  CHECK(ViewsByPaper(Below(kThreshold)) == 4);
-  CHECK(ViewsByPaper(kThreshold) == 4);
-  CHECK(ViewsByPaper(kThreshold * (1 + 1e-12)) == 5);
-}
-
-TEST_CASE("rules: above a radius of 4 / 0.787, N by (9) is the ceiling of 0.787 times the radius") {
-  // With r in thousandths, the expected value is the ceiling of 787 r / 10^6, in integers.
-  for (int r = 5083; r <= 128000; ++r) {
-    const int expected = int((int64_t{787} * r + 999999) / 1000000);
+  // With r in thousandths, the second value is the ceiling of 787 r / 10^6, in integers.
+  for (int r = 1; r <= 128000; ++r) {
+    const int most = (r + 999) / 1000, fewer = int((int64_t{787} * r + 999999) / 1000000);
+    const int expected = most <= 4 ? most : std::max(4, fewer);
     if (ViewsByPaper(r / 1000.0) != expected) {
       CAPTURE(r);
       CHECK(ViewsByPaper(r / 1000.0) == expected);
     }
   }
-  for (int n = 5; n <= 100; ++n) {
-    const double step = n / 0.787;
+  for (int n = 1; n <= 100; ++n) {
     CAPTURE(n);
-    CHECK(ViewsByPaper(step * (1 - 1e-12)) == n);
+    const double step = n < 4 ? n : n / 0.787;
+    CHECK(ViewsByPaper(Below(step)) == n);
     CHECK(ViewsByPaper(step * (1 + 1e-12)) == n + 1);
   }
+  CHECK(ViewsByPaper(4 / 0.787) == 4);
 }
 
 TEST_CASE("rules: N of the benchmark is twice the ceiling of the radius") {
@@ -91,39 +80,6 @@ TEST_CASE("rules: N by the rule for subapertures matches the table") {
     if (k + 1 < std::size(kTable))
       CHECK(ViewsBySubaperture(Above(kTable[k].r_max)) == kTable[k + 1].n);
   }
-}
-
-// Radii at which layers 1 and 2 begin, by (12) and by subapertures.
-constexpr struct {
-  Demand demand;
-  double paper[2], subaperture[2];
-} kFirstRadii[] = {{Demand::kFallOff, {3, 6}, {7, 24}},
-                   {Demand::kDisc, {4, 8}, {12, 12 * 24 / 7.0}},
-                   {Demand::kPolygon, {5, 10}, {14, 14 * 24 / 7.0}},
-                   {Demand::kRing, {6, 12}, {16, 16 * 24 / 7.0}}};
-
-TEST_CASE("rules: the more an opening demands, the larger are the first radii of layers") {
-  for (const auto& first : kFirstRadii) {
-    CAPTURE(int(first.demand));
-    CHECK(LayerByPaper(0, first.demand) == 0);
-    CHECK(LayerByPaper(STARFOCUS_MAX_BLUR, first.demand) == 2);
-    CHECK(LayerBySubaperture(0, false, first.demand) == 0);
-    CHECK(LayerBySubaperture(STARFOCUS_MAX_BLUR, false, first.demand) == 2);
-    // Depth edges have no layer 2.
-    CHECK(LayerBySubaperture(STARFOCUS_MAX_BLUR, true, first.demand) == 1);
-    for (int layer = 1; layer <= 2; ++layer) {
-      const double paper = first.paper[layer - 1], radius = first.subaperture[layer - 1];
-      CHECK(LayerByPaper(Below(paper), first.demand) == layer - 1);
-      CHECK(LayerByPaper(paper, first.demand) == layer);
-      CHECK(LayerBySubaperture(radius * (1 - 1e-12), false, first.demand) == layer - 1);
-      CHECK(LayerBySubaperture(radius * (1 + 1e-12), false, first.demand) == layer);
-      CHECK(LayerBySubaperture(radius * (1 - 1e-12), true, first.demand) == layer - 1);
-      CHECK(LayerBySubaperture(radius * (1 + 1e-12), true, first.demand) == 1);
-    }
-  }
-  CHECK(LayerByPaper(3) == 1);
-  CHECK(LayerBySubaperture(7, false) == 1);
-  CHECK(LayerBySubaperture(24, false) == 2);
 }
 
 TEST_CASE("rules: the more an opening demands, the larger is N") {
