@@ -256,24 +256,5 @@ TEST_CASE("blocks: the scale multiplies N of both renderers, but not N of the be
   }
 }
 
-TEST_CASE(
-    "blocks: with twice as many views, the smallest and a large workspace give equal pictures") {
-  const test::Scene scene = test::RandomScene(40, 36, 5, 0, 0, 2);
-  for (const double radius : {0.3, 0.51, 1.0, 2.5}) {
-    for (const starfocus_renderer renderer : test::kRenderers) {
-      for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
-        const auto picture = [&](double max_blur) {
-          test::Config config = test::ConfigFor(scene, max_blur);
-          config.tuning.n_scale = 2;
-          config.tuning.gather = 0;
-          return test::OutputOf(config, test::Params(radius, 1, mode, renderer), scene).bytes;
-        };
-        CAPTURES(radius, renderer, mode);
-        CHECK((picture(radius) == picture(64)));
-      }
-    }
-  }
-}
-
 }  // namespace
 }  // namespace blocks_test

@@ -122,22 +122,6 @@ TEST_CASE("gather: the kind of each cell (mixed, sloped or flat) matches the def
   CHECK(found[int(CellKind::kFlat)] > 500);
 }
 
-TEST_CASE("gather: the borders of a layer include all rows that the PSFs read") {
-  std::vector<uint16_t> weights(starfocus::BlurWeightCount(false, starfocus::kMaxGather));
-  std::vector<starfocus::Psf> kernels(size_t(starfocus::PsfCount(starfocus::kMaxGather)));
-  starfocus::MakePsfs(0, int32_t(kernels.size()), {}, nullptr, weights.data(), kernels.data());
-  for (int blur = 1; blur <= STARFOCUS_MAX_BLUR * 4; ++blur) {
-    const double max_blur = blur / 4.0;
-    CAPTURE(max_blur);
-    const starfocus::Borders borders = test::BordersOf(max_blur);
-    for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
-      const double gathered = starfocus::LargestGather(max_blur / (1 << layer));
-      const int32_t read = kernels[size_t(starfocus::PsfCount(gathered) - 1)].size;
-      CHECK(starfocus::UpsampleBorder(layer) + read <= borders.layer[layer]);
-    }
-  }
-}
-
 // Returns the reference of a picture in blur mode. PSFs of pixels behind the focus are rotated by
 // 180 degrees.
 std::vector<double> BlurredByReference(const test::Scene& scene, const starfocus::Params& params,

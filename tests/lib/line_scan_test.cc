@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the line scan: its runs against their definition, and its views of lines against the
-// reference.
+// Tests the line scan: its views of lines against the reference, and the limits of its runs.
 #include "lib/line_scan/line_scan.h"
 
 #include <doctest/doctest.h>
@@ -14,7 +13,6 @@
 
 #include "simd/kernels.h"
 #include "tests/conformance/reference_line.h"
-#include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
 
 namespace line_scan_test {
@@ -24,38 +22,25 @@ using namespace starfocus;
 
 using Depths = std::vector<int16_t>;
 
-// Returns the runs of adjacent lines of equal length. The pixels of a line are stored `step`
-// elements apart; `step` is at least the number of lines.
-std::vector<std::vector<Run>> FindRuns(const simd::LineScanKernels& kernels,
-                                       const std::vector<Depths>& lines, const ViewGrid& grid,
-                                       int range, Direction direction, size_t step) {
-  const size_t length = lines[0].size();
-  std::vector<int16_t> disparity(length * step + simd::kPadding / sizeof(int16_t));
-  for (size_t k = 0; k < lines.size(); ++k) {
-    for (size_t q = 0; q < length; ++q) disparity[q * step + k] = lines[k][q];
-  }
-  std::vector<uint16_t> starts(RunMarkWords(length, lines.size()), 0xCDCD);
-  std::vector<uint16_t> edges = starts;
-  std::vector<int16_t> middles(RunMiddles(length, lines.size()), 0x5A5A);
-  simd::RunMarks marks = {starts.data(), edges.data(), middles.data(), 0};
-  MarkRuns(kernels, int16_t(range), disparity.data(), ptrdiff_t(step), int32_t(length),
-           int32_t(lines.size()), direction, &marks);
-  std::vector<std::vector<Run>> found;
-  for (size_t k = 0; k < lines.size(); ++k) {
-    std::vector<Run> runs(length);
-    const int32_t count = ReadRuns(marks, int32_t(k), int32_t(length), grid,
-                                   grid.n() == 0 ? 0 : grid.Move(1), runs.data());
-    REQUIRE(count >= 1);
-    REQUIRE(count <= int32_t(length));
-    runs.resize(size_t(count));
-    found.push_back(runs);
-  }
-  return found;
-}
-
+// Returns the runs of a line.
 std::vector<Run> FindRuns(const Depths& line, const ViewGrid& grid, int range,
                           Direction direction) {
-  return FindRuns(simd::BestLineScanKernels(), {line}, grid, range, direction, 1)[0];
+  const size_t length = line.size();
+  Depths disparity = line;
+  disparity.resize(length + simd::kPadding / sizeof(int16_t));
+  std::vector<uint16_t> starts(RunMarkWords(length, 1), 0xCDCD);
+  std::vector<uint16_t> edges = starts;
+  std::vector<int16_t> middles(RunMiddles(length, 1), 0x5A5A);
+  simd::RunMarks marks = {starts.data(), edges.data(), middles.data(), 0};
+  MarkRuns(simd::BestLineScanKernels(), int16_t(range), disparity.data(), 1, int32_t(length), 1,
+           direction, &marks);
+  std::vector<Run> runs(length);
+  const int32_t count =
+      ReadRuns(marks, 0, int32_t(length), grid, grid.n() == 0 ? 0 : grid.Move(1), runs.data());
+  REQUIRE(count >= 1);
+  REQUIRE(count <= int32_t(length));
+  runs.resize(size_t(count));
+  return runs;
 }
 
 enum class Kind { kSurface, kMix, kHole };
@@ -160,74 +145,6 @@ Depths MakeLine(const std::vector<Stretch>& stretches) {
     line.insert(line.end(), size_t(s.pixels), int16_t(std::lround(s.disparity * 64)));
   }
   return line;
-}
-
-TEST_CASE("runs: the width of a subaperture is the distance that its run moves from view to view") {
-  // The disparities differ from the focus by 2 and 3 pixels. With N = 4, neighbouring views move by
-  // 0.5 and 0.75 pixels.
-  const ViewGrid grid = MakeGrid(4, 1, 1);
-  const std::vector<Run> runs = FindRuns({-128, -128, 192, 192}, grid, 16, Direction::kRightToLeft);
-  REQUIRE(runs.size() == 2);
-  CHECK(runs[0].subaperture == 128);
-  CHECK(runs[1].subaperture == 192);
-}
-
-// Checks the runs of a line whose pixels are in scan order for kRightToLeft.
-void CheckLine(const Depths& line, const ViewGrid& grid, int spread, const std::vector<Run>& runs) {
-  int end = int(line.size()), surface_end = end;
-  for (const Run& run : runs) {
-    REQUIRE(run.begin < end);
-    const auto range = std::minmax_element(line.begin() + run.begin, line.begin() + end);
-    const int low = *range.first, high = *range.second;
-    CHECK(high - low <= spread);
-    CHECK(run.disparity == (low + high) >> 1);
-    if (end < int(line.size()) &&
-        std::abs(line[size_t(end)] - line[size_t(end - 1)]) > kSurfaceStep) {
-      surface_end = end;
-    }
-    CHECK(run.surface_end == surface_end);
-    CHECK(run.subaperture == std::abs(grid.Shift(grid.Move(1), run.disparity)));
-    if (run.begin > 0) {  // with one more pixel, the run would exceed the spread
-      const int next = line[size_t(run.begin - 1)];
-      CHECK(std::max(high, next) - std::min(low, next) > spread);
-    }
-    end = run.begin;
-  }
-  CHECK(end == 0);
-}
-
-Depths RunLine(int length, test::Random* random) {
-  Depths line(static_cast<size_t>(length));
-  const int amplitude = random->Int(0, 3) == 0 ? 7000 : 60 << random->Int(0, 3);
-  int level = random->Int(-amplitude, amplitude);
-  for (int16_t& d : line) {
-    if (random->Int(0, 3) == 0) level = random->Int(-amplitude, amplitude);
-    d = int16_t(level);
-  }
-  return line;
-}
-
-TEST_CASE("runs: random lines are covered by the longest runs that the spread allows") {
-  test::Random random(3);
-  for (int round = 0; round < 150; ++round) {
-    const int length = random.Int(1, 70), count = random.Int(1, 40);
-    std::vector<Depths> lines, mirrored;
-    for (int k = 0; k < count; ++k) {
-      lines.push_back(RunLine(length, &random));
-      mirrored.push_back({lines.back().rbegin(), lines.back().rend()});
-    }
-    const ViewGrid grid = MakeGrid(random.Int(1, 9), random.Real(-3, 3), 1);
-    const int spread = random.Int(0, 96);
-    const size_t step = size_t(count + random.Int(0, 5));
-    for (const simd::LineScanKernels* kernels : test::LineScanTargets()) {
-      const auto runs = FindRuns(*kernels, lines, grid, spread, Direction::kRightToLeft, step);
-      const auto left = FindRuns(*kernels, mirrored, grid, spread, Direction::kLeftToRight, step);
-      for (size_t k = 0; k < lines.size(); ++k) {
-        CheckLine(lines[k], grid, spread, runs[k]);
-        CheckLine(lines[k], grid, spread, left[k]);
-      }
-    }
-  }
 }
 
 TEST_CASE("runs: rendered views up to 0.5 from the centre use captured views at half distance") {

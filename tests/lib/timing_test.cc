@@ -78,6 +78,16 @@ BlockWork MeasureViewByView(const Rect& rect, const Border& border, int n, bool 
   return work;
 }
 
+constexpr uint32_t starfocus_timing::*kCoefficients[] = {
+    &starfocus_timing::field, &starfocus_timing::a,        &starfocus_timing::b,
+    &starfocus_timing::c,     &starfocus_timing::upsample, &starfocus_timing::span,
+    &starfocus_timing::hole,  &starfocus_timing::block};
+constexpr uint64_t BlockWork::*kAmounts[] = {
+    &BlockWork::field,    &BlockWork::a,    &BlockWork::b,   &BlockWork::c,
+    &BlockWork::upsample, &BlockWork::span, &BlockWork::hole};
+static_assert(sizeof(starfocus_timing) == 8 * sizeof(uint32_t), "a coefficient is not tested");
+static_assert(sizeof(BlockWork) == 7 * sizeof(uint64_t), "an amount is not tested");
+
 TEST_CASE("timing: the work of a block is the sum over its views") {
   test::Random random(3);
   for (int round = 0; round < 411; ++round) {
@@ -98,25 +108,9 @@ TEST_CASE("timing: the work of a block is the sum over its views") {
     BlockWork got = renderer.measure_work(rect, border, DiscOf(n), content, layer);
     got.upsample = upsampled;
     CAPTURE(n);
-    CHECK(got.field == expected.field);
-    CHECK(got.a == expected.a);
-    CHECK(got.b == expected.b);
-    CHECK(got.c == expected.c);
-    CHECK(got.upsample == expected.upsample);
-    CHECK(got.span == expected.span);
-    CHECK(got.hole == expected.hole);
+    for (const auto amount_of : kAmounts) CHECK(got.*amount_of == expected.*amount_of);
   }
 }
-
-constexpr uint32_t starfocus_timing::*kCoefficients[] = {
-    &starfocus_timing::field, &starfocus_timing::a,        &starfocus_timing::b,
-    &starfocus_timing::c,     &starfocus_timing::upsample, &starfocus_timing::span,
-    &starfocus_timing::hole,  &starfocus_timing::block};
-constexpr uint64_t BlockWork::*kAmounts[] = {
-    &BlockWork::field,    &BlockWork::a,    &BlockWork::b,   &BlockWork::c,
-    &BlockWork::upsample, &BlockWork::span, &BlockWork::hole};
-static_assert(sizeof(starfocus_timing) == 8 * sizeof(uint32_t), "a coefficient is not tested");
-static_assert(sizeof(BlockWork) == 7 * sizeof(uint64_t), "an amount is not tested");
 
 starfocus_timing EqualTiming(uint32_t value) {
   starfocus_timing timing = {};
