@@ -147,6 +147,8 @@ TEST_CASE("layout: the layout of a preview fits into the workspace of the full p
     test::SetFeature(STARFOCUS_FEATURE_SHAPES, random.Int(0, 1), &config.features);
     const size_t bytes = test::WorkspaceBytes(config);
     if (bytes == kTooLarge) continue;
+    config.previews = STARFOCUS_MAX_PREVIEW;
+    CHECK(test::WorkspaceBytes(config) == bytes);
     for (int shift = 1; shift <= STARFOCUS_MAX_PREVIEW; ++shift) {
       const starfocus::FullConfig reduced = starfocus::ReducedConfig(config, shift);
       CAPTURES(round, shift);
