@@ -57,6 +57,9 @@ struct Field {
   bool RefocusesPrepared(starfocus::Engine* engine) const {
     return Writes(kSize, [&](const auto& out) { return engine->RefocusPrepared(params, out); });
   }
+  bool Prepares(starfocus::Engine* engine) const {
+    return engine->Init(config) == STARFOCUS_OK && engine->Prepare(field) == STARFOCUS_OK;
+  }
   bool RefocusesPreview(starfocus::Engine* engine) const {
     starfocus::Params half = params;
     half.preview_shift = 1;
@@ -104,10 +107,8 @@ bool EveryCall() {
   starfocus::Config bad;
   bad.width = -1;
   if (engine.Init(bad) != STARFOCUS_ERROR_RANGE || !f.IsEmpty(&engine)) return false;
-  if (engine.Init(f.config) != STARFOCUS_OK) return false;
-  return f.Refocuses(&engine) && engine.Prepare(f.field) == STARFOCUS_OK &&
-         f.RefocusesPrepared(&engine) && f.RefocusesPreview(&engine) && f.RefocusesAfter(&engine) &&
-         f.Streams(&engine);
+  return f.Prepares(&engine) && f.Refocuses(&engine) && f.RefocusesPrepared(&engine) &&
+         f.RefocusesPreview(&engine) && f.RefocusesAfter(&engine) && f.Streams(&engine);
 }
 
 // If a second Init fails, the engine and its prepared light field must remain. If a second Init
@@ -115,30 +116,22 @@ bool EveryCall() {
 bool SecondInit() {
   const Field f;
   starfocus::Engine engine;
-  if (engine.Init(f.config) != STARFOCUS_OK || engine.Prepare(f.field) != STARFOCUS_OK)
-    return false;
   starfocus::Config bad;
-  if (engine.Init(bad) != STARFOCUS_ERROR_RANGE) return false;
+  if (!f.Prepares(&engine) || engine.Init(bad) != STARFOCUS_ERROR_RANGE) return false;
   no_memory = true;
   const starfocus_status status = engine.Init(f.config);
   no_memory = false;
-  if (status != STARFOCUS_ERROR_MEMORY) return false;
-  if (!f.Refocuses(&engine) || !f.RefocusesPrepared(&engine)) return false;
-  if (engine.Init(f.config) != STARFOCUS_OK) return false;
-  return f.IsUnprepared(&engine) && f.Refocuses(&engine);
+  return status == STARFOCUS_ERROR_MEMORY && f.Refocuses(&engine) && f.RefocusesPrepared(&engine) &&
+         engine.Init(f.config) == STARFOCUS_OK && f.IsUnprepared(&engine) && f.Refocuses(&engine);
 }
 
 bool Moves() {
   const Field f;
   starfocus::Engine first;
-  if (first.Init(f.config) != STARFOCUS_OK || first.Prepare(f.field) != STARFOCUS_OK) return false;
+  if (!f.Prepares(&first)) return false;
   {
-    starfocus::Engine second = std::move(first);
-    if (!f.IsEmpty(&first)) return false;
-    if (!f.Refocuses(&second) || !f.RefocusesPrepared(&second)) return false;
-    starfocus::Engine third;
-    if (third.Init(f.config) != STARFOCUS_OK || third.Prepare(f.field) != STARFOCUS_OK)
-      return false;
+    starfocus::Engine second = std::move(first), third;
+    if (!f.IsEmpty(&first) || !f.RefocusesPrepared(&second) || !f.Prepares(&third)) return false;
     third = std::move(second);
     if (!f.IsEmpty(&second)) return false;
     starfocus::Engine& same = third;
@@ -146,8 +139,7 @@ bool Moves() {
     if (!f.Refocuses(&third) || !f.RefocusesPrepared(&third)) return false;
   }
   // An engine that was moved from is empty.
-  if (!f.IsEmpty(&first)) return false;
-  return first.Init(f.config) == STARFOCUS_OK && f.Refocuses(&first);
+  return f.IsEmpty(&first) && first.Init(f.config) == STARFOCUS_OK && f.Refocuses(&first);
 }
 
 // After a failed Prepare, the engine has no prepared light field.

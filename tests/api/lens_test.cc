@@ -77,21 +77,25 @@ std::vector<uint8_t> Expected(const test::Scene& scene, const starfocus::Params&
   return out.bytes;
 }
 
+// Returns the picture of a prepared light field.
+test::Output OutputOfPrepared(const test::Engine& engine, const starfocus::Params& params,
+                              const starfocus_prepared* prepared) {
+  test::Output out(engine.config().width, engine.config().height);
+  REQUIRE(test::RefocusPreparedRgb(engine.get(), &params, prepared, out.bytes.data(), out.stride,
+                                   nullptr) == STARFOCUS_OK);
+  return out;
+}
+
 TEST_CASE("lens: after a change of shape, an engine returns the bytes of a new engine") {
   const test::Scene scene = MakeScene();
   test::Engine engine(Config(scene)), other(Config(scene));
   test::PreparedMemory memory(other);
   const starfocus_prepared* const prepared = memory.Prepare(other.get(), scene.Field());
-  int index = 0;
   for (const starfocus::Params& lens : Lenses()) {
-    CAPTURE(index);
-    ++index;
+    CAPTURE(test::ShapeText(lens));
     // The light field that another engine has prepared belongs to no lens.
     const starfocus::Params block = ParamsOf(lens, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO);
-    test::Output of_prepared(kWidth, kHeight);
-    REQUIRE(test::RefocusPreparedRgb(engine.get(), &block, prepared, of_prepared.bytes.data(),
-                                     of_prepared.stride, nullptr) == STARFOCUS_OK);
-    CHECK((of_prepared.bytes == Expected(scene, block)));
+    CHECK((OutputOfPrepared(engine, block, prepared).bytes == Expected(scene, block)));
     // In the second iteration, the engine must use the tables that it made for this lens in the
     // same mode.
     std::vector<std::vector<uint8_t>> expected;
@@ -217,7 +221,7 @@ TEST_CASE("pinhole: every mode, renderer and entry point returns the centre view
       params.theta = random.Real(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA);
       // At aperture 0, any focus is legal.
       if (seed % 4 == 0) params.focus = -STARFOCUS_MAX_FOCUS;
-      test::Output centre(size[0], size[1]), streamed = centre, of_prepared = centre;
+      test::Output centre(size[0], size[1]), streamed = centre;
       for (int y = 0; y < size[1]; ++y) {
         std::copy_n(scene.Pixel(0, 0, y), 3 * size[0], &centre.bytes[size_t(y) * centre.stride]);
       }
@@ -226,10 +230,8 @@ TEST_CASE("pinhole: every mode, renderer and entry point returns the centre view
       REQUIRE(test::Stream(&engine, params, scene, &streamed, 7, 11) == STARFOCUS_OK);
       CHECK(streamed.bytes == centre.bytes);
       test::PreparedMemory memory(engine);
-      REQUIRE(test::RefocusPreparedRgb(
-                  engine.get(), &params, memory.Prepare(engine.get(), scene.Field()),
-                  of_prepared.bytes.data(), of_prepared.stride, nullptr) == STARFOCUS_OK);
-      CHECK(of_prepared.bytes == centre.bytes);
+      const starfocus_prepared* const prepared = memory.Prepare(engine.get(), scene.Field());
+      CHECK(OutputOfPrepared(engine, params, prepared).bytes == centre.bytes);
       params.region = {size[0] / 3, size[1] / 4, size[0] - size[0] / 3, (size[1] + 3) / 4};
       CHECK(test::IsPartOf(test::OutputOf(&engine, params, scene), centre, params.region));
     }

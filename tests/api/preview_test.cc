@@ -164,6 +164,8 @@ TEST_CASE("preview: a preview equals the picture of a light field that is reduce
     Prepared prepared(scene, config);
     const starfocus_callbacks callbacks = test::RunBy(test::RunOnTwo);
     REQUIRE(starfocus_set_callbacks(prepared.engine.get(), &callbacks) == STARFOCUS_OK);
+    const starfocus::Params whole = test::Params(offset - 3, 1, STARFOCUS_MODE_BLOCK);
+    const test::Output before = test::OutputOf(&prepared.engine, whole, scene);
     for (int shift = 1; shift <= 3; ++shift) {
       CAPTURE(shift);
       const test::Scene reduced = Reduced(scene, shift, config.transfer);
@@ -186,32 +188,9 @@ TEST_CASE("preview: a preview equals the picture of a light field that is reduce
         CHECK(IsOfReduced(&prepared, params, shift, config, reduced));
       }
     }
+    // A preview does not change the engine of the full picture.
+    CHECK(test::OutputOf(&prepared.engine, whole, scene).bytes == before.bytes);
   }
-}
-
-TEST_CASE("preview: previews neither change the engine nor need a larger workspace") {
-  const test::Scene scene = test::LayeredScene(170, 130, 5, 7, 3);
-  test::Config config = test::ConfigFor(scene, 20);
-  config.features |= STARFOCUS_FEATURE_STREAMING;
-  size_t without = 0, with = 0;
-  REQUIRE(starfocus_workspace_size(&config, &without, nullptr) == STARFOCUS_OK);
-  config.previews = 3;
-  REQUIRE(starfocus_workspace_size(&config, &with, nullptr) == STARFOCUS_OK);
-  CHECK(with == without);
-  Prepared prepared(scene, config);
-  const starfocus::Params params = test::Params(-3, 1, STARFOCUS_MODE_BLOCK);
-  test::Output streamed(170, 130);
-  const test::Output before = test::OutputOf(&prepared.engine, params, scene);
-  const test::Output first = prepared.Preview(test::Params(5, 1, STARFOCUS_MODE_BLOCK), 2);
-  CHECK(test::OutputOf(&prepared.engine, params, scene).bytes == before.bytes);
-  // A preview ends a stream, which the caller must then begin again.
-  REQUIRE(starfocus_stream_begin(prepared.engine.get(), &params) == STARFOCUS_OK);
-  CHECK(prepared.Preview(test::Params(5, 1, STARFOCUS_MODE_BLOCK), 2).bytes == first.bytes);
-  int32_t written = 0;
-  CHECK(test::PullRgb(prepared.engine.get(), streamed.bytes.data(), streamed.stride, 1, &written,
-                      nullptr) == STARFOCUS_ERROR_STATE);
-  REQUIRE(test::Stream(&prepared.engine, params, scene, &streamed, 9, 9) == STARFOCUS_OK);
-  CHECK(streamed.bytes == before.bytes);
 }
 
 TEST_CASE("preview: the memory has the documented size") {

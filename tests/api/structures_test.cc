@@ -15,7 +15,6 @@
 #include <map>
 #include <memory>
 #include <regex>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -316,12 +315,6 @@ TEST_CASE("structures: a report is filled up to the size of the caller") {
   }
 }
 
-// A field as a header declares it.
-struct Declared {
-  std::string structure, type, name;
-  bool is_pointer, is_function;
-};
-
 // Returns the text of a public header without comments.
 std::string TextOf(const std::string& header) {
   std::ifstream file(std::string(STARFOCUS_SOURCE_DIR) + "/lib/include/starfocus/" + header);
@@ -332,70 +325,24 @@ std::string TextOf(const std::string& header) {
   return text;
 }
 
-std::vector<Declared> DeclaredIn(const std::string& header) {
-  const std::string text = TextOf(header);
-  const std::regex begin("typedef struct (starfocus_[a-z_]+) \\{");
-  const std::regex function("[^(]*\\(\\*(\\w+)\\)[^;]*");
-  const std::regex plain("\\s*(?:const )?(?:struct )?(\\w+)(\\*?)\\s+(\\w+)(?:\\[\\w+\\])?");
-  std::vector<Declared> all;
-  std::smatch found;
-  for (std::sregex_iterator it(text.begin(), text.end(), begin), end; it != end; ++it) {
-    const std::string structure = (*it)[1];
-    const size_t open = text.find('{', size_t(it->position())), close = text.find('}', open);
-    std::istringstream body(text.substr(open + 1, close - open - 1));
-    for (std::string line; std::getline(body, line, ';');) {
-      if (std::regex_match(line, found, function)) {
-        all.push_back({structure, "", found[1], true, true});
-      } else if (std::regex_match(line, found, plain)) {
-        all.push_back({structure, found[1], found[3], found[2].length() > 0, false});
-      }
-    }
-  }
-  return all;
-}
-
-int32_t TypeOf(const Declared& field) {
-  static const std::map<std::string, int32_t> kTypes = {
-      {"int32_t", STARFOCUS_FIELD_INT32},
-      {"starfocus_status", STARFOCUS_FIELD_INT32},
-      {"uint32_t", STARFOCUS_FIELD_UINT32},
-      {"int64_t", STARFOCUS_FIELD_INT64},
-      {"uint64_t", STARFOCUS_FIELD_UINT64},
-      {"size_t", sizeof(size_t) == 8 ? STARFOCUS_FIELD_UINT64 : STARFOCUS_FIELD_UINT32},
-      {"double", STARFOCUS_FIELD_DOUBLE},
-      {"starfocus_runner", STARFOCUS_FIELD_FUNCTION},
-      {"starfocus_progress", STARFOCUS_FIELD_FUNCTION}};
-  if (field.is_function) return STARFOCUS_FIELD_FUNCTION;
-  if (field.is_pointer)
-    return field.type == "char" ? STARFOCUS_FIELD_STRING : STARFOCUS_FIELD_POINTER;
-  const auto known = kTypes.find(field.type);
-  return known == kTypes.end() ? STARFOCUS_FIELD_STRUCTURE : known->second;
-}
-
-TEST_CASE("structures: starfocus_fields lists every field of the headers with its type") {
-  std::string structure;
-  const starfocus_field* fields = nullptr;
-  int32_t count = 0, next = 0, structures = 0;
+// The names, types and offsets of fields come from the compiler, so that only a field can be
+// missing.
+TEST_CASE("structures: starfocus_fields lists every field of the headers, in order") {
+  const std::regex declaration("typedef struct (starfocus_[a-z_]+) \\{([^}]*)\\}");
+  int structures = 0;
   for (const char* header : {"starfocus.h", "experimental.h", "depth.h", "image.h", "matte.h"}) {
-    for (const Declared& declared : DeclaredIn(header)) {
-      CAPTURES(declared.structure, declared.name);
-      if (declared.structure != structure) {
-        CHECK(next == count);
-        structure = declared.structure;
-        REQUIRE(starfocus_fields(structure.c_str(), &fields, &count) > 0);
-        next = 0;
-        ++structures;
-      }
-      REQUIRE(next < count);
-      const starfocus_field& field = fields[next++];
-      CHECK(field.name == declared.name);
-      CHECK(field.type == TypeOf(declared));
-      const bool has_target = starfocus_fields(declared.type.c_str(), nullptr, nullptr) > 0;
-      CHECK((field.structure == nullptr ? "" : field.structure) ==
-            (has_target ? declared.type : ""));
+    const std::string text = TextOf(header);
+    for (std::sregex_iterator it(text.begin(), text.end(), declaration), end; it != end; ++it) {
+      const std::string name = (*it)[1], body = (*it)[2];
+      CAPTURE(name);
+      const starfocus_field* fields = nullptr;
+      int32_t count = 0;
+      REQUIRE(starfocus_fields(name.c_str(), &fields, &count) > 0);
+      CHECK(count == std::count(body.begin(), body.end(), ';'));
+      for (int k = 1; k < count; ++k) CHECK(fields[k].offset > fields[k - 1].offset);
+      ++structures;
     }
   }
-  CHECK(next == count);
   CHECK(structures >= 24);
   CHECK(starfocus_fields("starfocus_config", nullptr, nullptr) == sizeof(starfocus_config));
   for (const char* name :
@@ -403,6 +350,34 @@ TEST_CASE("structures: starfocus_fields lists every field of the headers with it
     CHECK(starfocus_fields(name, nullptr, nullptr) == 0);
   }
   CHECK(starfocus_fields(nullptr, nullptr, nullptr) == 0);
+}
+
+TEST_CASE("structures: fields have the type of the header, and pointers name their structure") {
+  const struct {
+    std::string structure, field;
+    int32_t type;
+    std::string target;  // "" if the field neither is nor points to a structure
+  } rows[] = {{"starfocus_problem", "status", STARFOCUS_FIELD_INT32, ""},
+              {"starfocus_problem", "field", STARFOCUS_FIELD_STRING, ""},
+              {"starfocus_config", "positions", STARFOCUS_FIELD_STRUCTURE, "starfocus_position"},
+              {"starfocus_callbacks", "runner", STARFOCUS_FIELD_FUNCTION, ""},
+              {"starfocus_callbacks", "observer", STARFOCUS_FIELD_POINTER, "starfocus_observer"},
+              {"starfocus_allocator", "allocate", STARFOCUS_FIELD_FUNCTION, ""},
+              {"starfocus_light_field", "coverage", STARFOCUS_FIELD_POINTER, ""},
+              {"starfocus_report", "rendered_samples", STARFOCUS_FIELD_UINT64, ""},
+              {"starfocus_report", "layers", STARFOCUS_FIELD_POINTER, "starfocus_layer_report"},
+              {"starfocus_disparity_stats", "invalid", STARFOCUS_FIELD_INT64, ""}};
+  for (const auto& row : rows) {
+    CAPTURES(row.structure, row.field);
+    const starfocus_field* fields = nullptr;
+    int32_t count = 0;
+    REQUIRE(starfocus_fields(row.structure.c_str(), &fields, &count) > 0);
+    const auto* const field = std::find_if(
+        fields, fields + count, [&](const starfocus_field& one) { return one.name == row.field; });
+    REQUIRE(field != fields + count);
+    CHECK(field->type == row.type);
+    CHECK((field->structure == nullptr ? "" : field->structure) == row.target);
+  }
 }
 
 TEST_CASE("structures: the defaults match the documentation in the headers") {
@@ -463,10 +438,9 @@ TEST_CASE(
       {-1, 1},   {1, -1},    {-1, -1},    {0.5, 0},    {-0.5, 0},   {0, 0.5},
       {0, -0.5}, {0.5, 0.5}, {-0.5, 0.5}, {0.5, -0.5}, {-0.5, -0.5}};
   double u = 7, v = 7;
-  CHECK(starfocus_view_position(-1, &u, &v, nullptr) == STARFOCUS_ERROR_RANGE);
-  CHECK(starfocus_view_position(STARFOCUS_MAX_VIEWS, &u, &v, nullptr) == STARFOCUS_ERROR_RANGE);
-  CHECK(starfocus_view_position(INT32_MAX, &u, &v, nullptr) == STARFOCUS_ERROR_RANGE);
-  CHECK(starfocus_view_position(INT32_MIN, &u, &v, nullptr) == STARFOCUS_ERROR_RANGE);
+  for (const int view : {-1, STARFOCUS_MAX_VIEWS, INT32_MAX, INT32_MIN}) {
+    CHECK(starfocus_view_position(view, &u, &v, nullptr) == STARFOCUS_ERROR_RANGE);
+  }
   CHECK(starfocus_view_position(0, nullptr, &v, nullptr) == STARFOCUS_ERROR_NULL);
   CHECK(starfocus_view_position(0, &u, nullptr, nullptr) == STARFOCUS_ERROR_NULL);
   CHECK(u == 7);

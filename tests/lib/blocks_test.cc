@@ -164,6 +164,16 @@ TEST_CASE("blocks: layers that no block reads are not computed") {
   CHECK(columns(27) == 3);
 }
 
+// Returns the number of views that are rendered for N.
+uint64_t ViewsFor(int n, bool subapertures) {
+  const int most = subapertures ? starfocus::MostOfSubapertures(n) : n * n;
+  uint64_t views = 0;
+  for (int i = -n; i <= n; ++i) {
+    for (int j = -n; j <= n; ++j) views += i * i + j * j <= most;
+  }
+  return views;
+}
+
 struct Told {
   int width = 0, height = 0;
   std::vector<int> covered;
@@ -199,13 +209,7 @@ TEST_CASE("blocks: the visited blocks cover the picture once and agree with the 
       }
       ++to.blocks;
       to.largest_n = std::max(to.largest_n, block->n);
-      for (int i = -block->n; i <= block->n; ++i) {
-        for (int j = -block->n; j <= block->n; ++j) {
-          const int most =
-              to.subapertures ? starfocus::MostOfSubapertures(block->n) : block->n * block->n;
-          to.views += i * i + j * j <= most;
-        }
-      }
+      to.views += ViewsFor(block->n, to.subapertures);
     };
     const starfocus_observer observer = test::Visitor(visitor, &told);
     test::Output out(scene.width, scene.height);
@@ -239,6 +243,9 @@ TEST_CASE("blocks: the scale multiplies N of both renderers, but not N of the be
         const auto views = [&](starfocus_mode mode) {
           starfocus_report report = starfocus::NewReport();
           test::OutputOf(config, test::Params(radius, 1, mode, renderer), scene, &report);
+          const bool slices = renderer != STARFOCUS_RENDERER_LINE_SCAN;
+          CHECK(report.r_max == radius);
+          CHECK(uint64_t(report.rendered_views) == ViewsFor(report.n, slices));
           return report.n;
         };
         const int n = renderer == STARFOCUS_RENDERER_LINE_SCAN

@@ -112,6 +112,14 @@ TEST_CASE("layout: the workspaces for boards do not exceed their recorded sizes"
     CAPTURE(bytes);
     CHECK(bytes <= board.most << 10);
   }
+  // Features and renderers that are left out need no memory.
+  test::Config whole = test::BoardConfig(640, 480, 1, 32, 8, 1);
+  whole.tuning.line_scan = starfocus_line_scan_renderer();
+  test::Config slices = whole, shapes = whole;
+  slices.tuning.line_scan = nullptr;
+  shapes.features |= STARFOCUS_FEATURE_SHAPES;
+  CHECK(test::WorkspaceBytes(slices) < test::WorkspaceBytes(whole));
+  CHECK(test::WorkspaceBytes(whole) < test::WorkspaceBytes(shapes));
 }
 
 // docs/boards.md lists the parts that MeasureParts returns.
@@ -147,6 +155,8 @@ TEST_CASE("layout: the layout of a preview fits into the workspace of the full p
     test::SetFeature(STARFOCUS_FEATURE_SHAPES, random.Int(0, 1), &config.features);
     const size_t bytes = test::WorkspaceBytes(config);
     if (bytes == kTooLarge) continue;
+    config.previews = STARFOCUS_MAX_PREVIEW;
+    CHECK(test::WorkspaceBytes(config) == bytes);
     for (int shift = 1; shift <= STARFOCUS_MAX_PREVIEW; ++shift) {
       const starfocus::FullConfig reduced = starfocus::ReducedConfig(config, shift);
       CAPTURES(round, shift);

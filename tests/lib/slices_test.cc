@@ -18,10 +18,6 @@
 namespace slices_test {
 namespace {
 
-using starfocus::kMaxSlices;
-using starfocus::Slice;
-using starfocus::SliceRule;
-
 constexpr int kWidth = 96, kHeight = 64;
 
 struct Views {
@@ -67,89 +63,6 @@ TEST_CASE("slices: for any N, the reach of a slice is at most LargestSliceReach"
     }
   }
   CHECK(nearest == 0);
-}
-
-constexpr int kSize = 64;
-
-// A map with one surface, or with further surfaces behind the first, as FindLayeredDepth returns
-// maps.
-struct Scene {
-  std::vector<int16_t> planes[3];
-  std::vector<uint64_t> hiding = std::vector<uint64_t>(kSize);
-  std::vector<uint8_t> bins = std::vector<uint8_t>(starfocus::kSliceBins);
-  std::vector<int32_t> least = std::vector<int32_t>(kSize);
-  starfocus::LayeredDepth surfaces;
-  starfocus::simd::DisparityRange bands[starfocus::kMaxRanges];
-
-  Scene() {
-    surfaces.width = surfaces.height = surfaces.stride = kSize;
-    for (int k = 0; k < 3; ++k) {
-      planes[k].assign(kSize * kSize + starfocus::simd::kSliceLanes,
-                       k == 0 ? int16_t{0} : starfocus::kNoSurface);
-      surfaces.disparity[k] = planes[k].data();
-    }
-    surfaces.hiding = hiding.data();
-    surfaces.bins = bins.data();
-    surfaces.least_blur = least.data();
-  }
-
-  int16_t& At(int x, int y, int surface = 0) {
-    if (surface > 0) hiding[size_t(y)] |= uint64_t{1} << (x / 16);
-    return planes[surface][size_t(y * kSize + x)];
-  }
-
-  // Returns the slices of the middle 16 x 16 pixels.
-  std::vector<Slice> Cut(double focus, double aperture = 1) {
-    SliceRule rule = starfocus::kSlices;
-    rule.area = INT32_MAX;  // no limit on the total area of all slices
-    starfocus::ViewWeights views;
-    views.n = views.last = 4;
-    const auto grid = starfocus::MakeViewGrid(views, starfocus::MakeFocusRange(focus), aperture, 0);
-    const auto range = std::minmax_element(planes[0].begin(), planes[0].end());
-    surfaces.low = *range.first;
-    surfaces.high = *range.second;
-    std::vector<Slice> slices(kMaxSlices);
-    const int count = starfocus::FindSlices(starfocus::simd::BestKernels(), surfaces, grid, rule,
-                                            {24, 24, 16, 16}, slices.data(), bands);
-    REQUIRE(count > 0);
-    REQUIRE(count <= rule.most);
-    slices.resize(size_t(count));
-    for (size_t k = 0; k < slices.size(); ++k) {
-      CHECK(slices[k].low <= slices[k].disparity);
-      CHECK(slices[k].disparity <= slices[k].high);
-      CHECK(slices[k].high <= slices[k].overlap);
-      if (k > 0) CHECK(slices[k].high < slices[k - 1].low);
-    }
-    return slices;
-  }
-};
-
-TEST_CASE("slices: the range of a band of rows includes the disparities of all surfaces") {
-  Scene scene;
-  scene.At(15, 15) = 20;
-  scene.At(51, 17) = -40;
-  scene.At(63, 18) = -50;   // The pixel is too far away to be visible in the middle of the picture.
-  scene.At(20, 51) = -300;  // The pixel extends the range of disparities to hidden surfaces.
-  for (int y = 30; y < 35; ++y) scene.At(40, y, 1) = int16_t(-100 - y);
-  scene.At(0, 31, 2) = -200;
-  scene.Cut(2.25);
-  const int expected[7][2] = {{0, 0}, {0, 20}, {-40, 0}, {-200, 0}, {-134, 0}, {}, {-300, 0}};
-  for (int band = 1; band < 7; ++band) {
-    CAPTURE(band);
-    for (const int row : {8 * band, 8 * band + 7}) {
-      CHECK(scene.bands[row / starfocus::kRangeRows].low == expected[band][0]);
-      CHECK(scene.bands[row / starfocus::kRangeRows].high == expected[band][1]);
-    }
-  }
-}
-
-TEST_CASE("slices: pixels that cannot splat into the rectangle are omitted") {
-  Scene scene;
-  scene.At(10, 30) = 64 * 12;  // the pixel is 14 columns away, and interpolation adds one column
-  CHECK(scene.Cut(0).size() == 1);
-  scene.At(10, 30) = 64 * 13;
-  CHECK(scene.Cut(0).size() == 2);
-  CHECK(scene.Cut(0, 0.5).size() == 1);
 }
 
 TEST_CASE("slices: the limit of the total area of slices depends only on the blur of the lens") {
