@@ -54,12 +54,6 @@ std::string LineIn(const TempFolder& folder, const Error& error) {
   return line;
 }
 
-mode_t Mode(const std::string& path) {
-  struct stat status;
-  REQUIRE(stat(path.c_str(), &status) == 0);
-  return status.st_mode & 07777;
-}
-
 TEST_CASE("file: the message of an error is one line") {
   CHECK(Expected("a\nb", "c", "d\te") == "a b: expected c, found d e");
   CHECK(Cannot("read", "a\nb", "c") == "cannot read a b: c");
@@ -158,19 +152,6 @@ TEST_CASE("file: devices and pipes are rejected without waiting, and limits appl
         large + "2147483648 bytes, found 2147483649)");
 }
 
-TEST_CASE("file: a replaced file keeps its permissions") {
-  TempFolder folder;
-  const std::string path = folder.file("a");
-  for (const mode_t mode : {0600, 0640, 0666, 0755}) {
-    REQUIRE(WriteFile(path, FromText("old")) == "");
-    REQUIRE(chmod(path.c_str(), mode) == 0);
-    REQUIRE(WriteFile(path, FromText("new")) == "");
-    CHECK(Mode(path) == mode);
-    CHECK(Read(path) == "new");
-  }
-  CHECK(folder.count() == 1);
-}
-
 TEST_CASE("file: CheckOutputPath and WriteFile reject a read-only file") {
   TempFolder folder;
   const std::string path = folder.file("a");
@@ -183,42 +164,6 @@ TEST_CASE("file: CheckOutputPath and WriteFile reject a read-only file") {
   }
   CHECK(Read(path) == "old");
   CHECK(folder.count() == 2);
-}
-
-TEST_CASE("file: CheckOutputPath and WriteFile accept the longest file name, and no longer name") {
-  TempFolder folder;
-  const long longest = pathconf(folder.path().c_str(), _PC_NAME_MAX);
-  REQUIRE(longest > 200);
-  for (const long length : {longest - 20, longest - 11, longest}) {
-    const std::string path = folder.file(std::string(size_t(length), 'n'));
-    CHECK(CheckOutputPath(path) == "");
-    CHECK(WriteFile(path, FromText("x")) == "");
-  }
-  const std::string path = folder.file(std::string(size_t(longest) + 1, 'n'));
-  CHECK(CheckOutputPath(path) != "");
-  CHECK(WriteFile(path, FromText("x")) != "");
-  CHECK(folder.count() == 3);
-}
-
-TEST_CASE("file: a link is written through, whether its file exists or not, and is kept") {
-  TempFolder folder;
-  fs::create_directory(folder.file("in"));
-  fs::create_symlink("in/second", folder.file("first"));
-  fs::create_symlink(folder.file("in/third"), folder.file("in/second"));
-  for (const char* text : {"absent", "present"}) {
-    CHECK(CheckOutputPath(folder.file("first")) == "");
-    REQUIRE(WriteFile(folder.file("first"), FromText(text)) == "");
-    CHECK(fs::is_symlink(folder.file("first")));
-    CHECK(fs::is_symlink(folder.file("in/second")));
-    CHECK(Read(folder.file("in/third")) == text);
-  }
-  fs::create_symlink("loop", folder.file("loop"));
-  CHECK(CheckOutputPath(folder.file("loop")) != "");
-}
-
-TEST_CASE("file: WriteFile returns an error if the device is full") {
-  if (!fs::exists("/dev/full")) return;
-  CHECK(WriteFile("/dev/full", FromText("x")) != "");
 }
 
 // Runs `work` in a process that cleans up at signals, and ends the process by a signal.

@@ -4,8 +4,6 @@
 #include "examples/command_line/program.h"
 
 #include <doctest/doctest.h>
-#include <sched.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -55,21 +53,12 @@ TEST_CASE("program: a program that a signal ends leaves no temporary file") {
   CHECK(folder.count() == 0);
 }
 
-TEST_CASE("program: a limit of file sizes causes one error and leaves no file") {
-  TempFolder folder;
-  const pid_t child = fork();
-  REQUIRE(child >= 0);
-  if (child == 0) {
-    constexpr rlimit kSmall = {1000, 1000}, kNoCore = {};
-    setrlimit(RLIMIT_CORE, &kNoCore);
-    setrlimit(RLIMIT_FSIZE, &kSmall);
-    _exit(RunProgram("test", [&] { return WriteFile(folder.file("out"), Bytes(100000)); }));
-  }
-  int status = 0;
-  REQUIRE(waitpid(child, &status, 0) == child);
-  CHECK(WIFEXITED(status));
-  CHECK(WEXITSTATUS(status) == 1);
-  CHECK(folder.count() == 0);
+// Returns the lines of a text.
+std::vector<std::string> LinesOf(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
 }
 
 // Returns the lines of a help text below "Examples:", without their indentation.
@@ -77,8 +66,8 @@ std::vector<std::string> ExamplesIn(const std::string& help) {
   std::vector<std::string> examples;
   const size_t begin = help.find("\nExamples:\n");
   if (begin == std::string::npos) return examples;
-  std::istringstream lines(help.substr(begin + 11));
-  for (std::string line; std::getline(lines, line) && line.rfind("  ", 0) == 0;) {
+  for (const std::string& line : LinesOf(help.substr(begin + 11))) {
+    if (line.rfind("  ", 0) != 0) break;
     examples.push_back(line.substr(2));
   }
   return examples;
@@ -88,21 +77,12 @@ std::vector<std::string> ExamplesIn(const std::string& help) {
 // "  -o,--output FILE".
 std::set<std::string> OptionsIn(const std::string& help) {
   std::set<std::string> options;
-  std::istringstream lines(help);
-  for (std::string line; std::getline(lines, line);) {
+  for (const std::string& line : LinesOf(help)) {
     if (line.rfind("  -", 0) != 0) continue;
     std::istringstream names(line.substr(2, line.find(' ', 2) - 2));
     for (std::string name; std::getline(names, name, ',');) options.insert(name);
   }
   return options;
-}
-
-// Returns the lines of a text.
-std::vector<std::string> LinesOf(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
 }
 
 // Checks that two examples call the command with options of `options`.
@@ -211,25 +191,12 @@ TEST_CASE("program: names with control characters are printed without them") {
 TEST_CASE("program: the default number of threads is the number of cores that it may use") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 32x24 --views 1");
-  const auto check = [&] {
-    const std::string threads = "\"threads\": " + std::to_string(starfocus_pool_cores());
-    for (const std::string call : {"refocus lf -o a.png", "video lf -o frames"}) {
-      Succeed(folder, call + " --focus 1 --report a.json");
-      const std::string report = Text(folder.file("a.json"));
-      CHECK((Contains(report, threads + ",") || Contains(report, threads + "\n")));
-    }
-  };
-  check();
-  cpu_set_t all, one;
-  REQUIRE(sched_getaffinity(0, sizeof(all), &all) == 0);
-  CPU_ZERO(&one);
-  for (int core = 0; CPU_COUNT(&one) == 0; ++core) {
-    if (CPU_ISSET(core, &all)) CPU_SET(core, &one);
+  const std::string threads = "\"threads\": " + std::to_string(starfocus_pool_cores());
+  for (const std::string call : {"refocus lf -o a.png", "video lf -o frames"}) {
+    Succeed(folder, call + " --focus 1 --report a.json");
+    const std::string report = Text(folder.file("a.json"));
+    CHECK((Contains(report, threads + ",") || Contains(report, threads + "\n")));
   }
-  REQUIRE(sched_setaffinity(0, sizeof(one), &one) == 0);
-  CHECK(starfocus_pool_cores() == 1);
-  check();
-  REQUIRE(sched_setaffinity(0, sizeof(all), &all) == 0);
 }
 
 TEST_CASE("program: every session of causes.txt succeeds") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the ray-traced scenes, and the strands and coverage of the two scenes that have strands.
+// Tests the ray-traced scenes, and the strands of scenes and their coverage.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -33,8 +33,6 @@ inline double Psnr(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b)
 namespace starfocus::scene_slow_test {
 namespace {
 
-// Width and height of most rendered pictures.
-constexpr int kWidth = 256, kHeight = kWidth * 3 / 4;
 const char* const kNames[] = {"portrait", "wires", "ramp", "hair", "grass", "cutout"};
 const char* const kStrandNames[] = {"hair", "grass", "cutout"};
 
@@ -45,20 +43,6 @@ Scene Made(const std::string& name, uint32_t seed = kSceneSeed) {
 SceneOpening DefaultOpening() {
   starfocus::Params params;
   return SceneOpening(params);
-}
-
-// Returns 1 if `is` holds for all pixels in the 3x3 neighbourhood of (x, y), 0 if `is_not` holds
-// for all of them, and -1 otherwise.
-template <class Is, class IsNot>
-int Around(int x, int y, const Is& is, const IsNot& is_not) {
-  int yes = 0, no = 0;
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
-      yes += is(x + dx, y + dy) ? 1 : 0;
-      no += is_not(x + dx, y + dy) ? 1 : 0;
-    }
-  }
-  return yes == 9 ? 1 : no == 9 ? 0 : -1;
 }
 
 TEST_CASE("scene: pictures depend on the seed, and not on the number of threads") {
@@ -221,44 +205,6 @@ TEST_CASE("strands: the search in a grid finds the nearest of 200 random strands
   }
   CHECK(met > 400);
   CHECK(wrong == 0);
-}
-
-TEST_CASE("strand scenes: coverage agrees with the map") {
-  ThreadRunner runner(2);
-  for (const char* name : kStrandNames) {
-    CAPTURE(std::string(name));
-    const Scene scene = Made(name);
-    const RayTracer tracer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
-    const FloatMap map = tracer.Disparity();
-    const std::vector<uint8_t> coverage = tracer.Coverage(nullptr);
-    const auto is_near = [&](int x, int y) { return map.at(x, y) > 0; };
-    const auto is_far = [&](int x, int y) { return !is_near(x, y); };
-    const auto level_at = [&](int x, int y) { return int{coverage[size_t(y * kWidth + x)]}; };
-    const auto is_whole = [&](int x, int y) { return level_at(x, y) == 255; };
-    const auto is_empty = [&](int x, int y) { return level_at(x, y) == 0; };
-    int clear = 0, against = 0, fractions = 0, lost = 0;
-    double covered = 0, near = 0;
-    for (int y = 1; y + 1 < kHeight; ++y) {
-      for (int x = 1; x + 1 < kWidth; ++x) {
-        const int level = level_at(x, y), cover = Around(x, y, is_whole, is_empty);
-        const int side = Around(x, y, is_near, is_far);
-        covered += level / 255.0;
-        near += map.at(x, y) > 0 ? 1 : 0;
-        clear += cover >= 0 ? 1 : 0;
-        against += cover >= 0 && side != cover ? 1 : 0;
-        fractions += level > 0 && level < 255 ? 1 : 0;
-        // Counts pixels that a strand covers in part, although the map around the pixel has no
-        // strand.
-        lost += level > 0 && side == 0 ? 1 : 0;
-      }
-    }
-    CHECK(clear > kWidth * kHeight / 3);
-    CHECK(against == 0);
-    CHECK(fractions > kWidth * kHeight / 20);
-    CHECK(lost > 100);
-    // The mean coverage equals the share of near pixels, since pixel centres sample the same area.
-    CHECK(covered == doctest::Approx(near).epsilon(0.02));
-  }
 }
 
 TEST_CASE("strand scenes: the coverage of a pixel is the share that a half plane covers") {

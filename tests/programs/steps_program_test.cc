@@ -159,11 +159,8 @@ TEST_CASE("steps: hidden surfaces show the far plane behind edges only") {
   const Image hidden = steps.Get("hidden");
   ForSquare([&](int x, int y) {
     const int inside = std::min({x - kLeft, kRight - 1 - x, y - kTop, kBottom - 1 - y});
-    if (inside < 0 || inside > 8) {
-      if (x != kLeft - 1) CHECK(IsGrey(At(hidden, x, y)));
-    } else if (inside < 7) {
-      CHECK(!IsGrey(At(hidden, x, y)));
-    }
+    if (x == kLeft - 1 || inside == 7 || inside == 8) return;
+    CHECK(IsGrey(At(hidden, x, y)) == (inside < 0 || inside > 8));
   });
   for (int x = kRight - 7; x < kRight; ++x) {
     for (int c = 0; c < 3; ++c) CHECK(std::abs(At(hidden, x, 40)[c] - FarCode(x, 40, c)) < 12);
@@ -194,13 +191,12 @@ TEST_CASE(
   const Image view = steps.Get("view"), holes = steps.Get("holes");
   const uint8_t magenta[3] = {255, 0, 255};
   ForSquare([&](int x, int y) {
-    if (x > 30 && x < 54 && y > kTop + 1 && y < kBottom - 2) {
-      CHECK(std::abs(At(view, x, y)[0] - NearCode(0)) <= 2);
-    }
+    const bool is_beside = y > kTop + 1 && y < kBottom - 2;
+    if (x > 30 && x < 54 && is_beside) CHECK(std::abs(At(view, x, y)[0] - NearCode(0)) <= 2);
     if (x > kRight) CHECK(Distance(At(view, x, y), At(steps.field.views[0], x, y)) <= 2);
     const bool hole = Distance(At(holes, x, y), magenta) < 60;
     if (hole) CHECK((x > kRight - 9 && x < kRight && y >= kTop - 1 && y <= kBottom));
-    if (x > kRight - 6 && x < kRight && y > kTop + 1 && y < kBottom - 2) CHECK(hole);
+    if (x > kRight - 6 && x < kRight && is_beside) CHECK(hole);
   });
 }
 
