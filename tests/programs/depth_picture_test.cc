@@ -39,10 +39,6 @@ struct Row {
   std::vector<std::string> notes = {};
 };
 
-double At(const Capture& capture, int x, int y) {
-  return double(capture.light_field.disparity.at(x, y));
-}
-
 void CheckRows(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
     INFO("row ", &row - rows.data(), ": ", row.name);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "platform/readers/capture.h"
+#include "platform/readers/jpeg_parts.h"
 #include "tests/support/opened_photo.h"
 
 namespace starfocus::depth_scene {
@@ -78,6 +79,15 @@ inline std::string PfmOf(const FloatMap& map, ByteOrder order = ByteOrder::kLitt
   return {bytes.begin(), bytes.end()};
 }
 
+inline Span SpanOf(const std::string& bytes) {
+  return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
+}
+
+// Returns the disparity of a pixel.
+inline double At(const Capture& capture, int x, int y) {
+  return double(capture.light_field.disparity.at(x, y));
+}
+
 // Opens a file that stores its depth or matte.
 inline Capture OpenPhoto(const std::string& file, const CaptureOptions& options = {}) {
   Capture capture;
@@ -129,6 +139,16 @@ inline DepthOptions UnitIs(DepthUnit unit, double metres = 1) {
   options.metres = metres;
   return options;
 }
+
+// Elements of the XMP of auxiliary pictures, as Apple's cameras write them.
+inline std::string AppleType(const std::string& type) {
+  return "<apdi:AuxiliaryImageType>" + type + "</apdi:AuxiliaryImageType>";
+}
+inline const std::string kAppleRange =
+    "<apdi:FloatMinValue>0.5</apdi:FloatMinValue><apdi:FloatMaxValue>2</apdi:FloatMaxValue>";
+
+// Returns the attribute that names the extended XMP.
+inline const std::string kGuidName = std::string("xmpNote:HasExtendedXMP=\"") + kGuid + "\" ";
 
 inline constexpr Scene kMillimetres = {3000, 1500, 900};
 // The largest disparity of a map without units: a portrait at 1.5 m from a 50 mm lens.

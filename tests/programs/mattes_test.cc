@@ -208,8 +208,7 @@ std::string Without(std::string file, const std::string& type) {
 
 // Returns the file in which the data of the item `id` are damaged.
 std::string Damaged(std::string file, uint32_t id) {
-  const Span span = {reinterpret_cast<const uint8_t*>(file.data()), file.size()};
-  const Bytes head = ReadHeifItems(span).value().at(id).head;
+  const Bytes head = ReadHeifItems(SpanOf(file)).value().at(id).head;
   const size_t at = file.find(std::string(head.begin(), head.begin() + 40));
   REQUIRE(at != std::string::npos);
   return file.replace(at, 40, std::string(40, '\0'));
@@ -223,7 +222,7 @@ TEST_CASE("HEIC: beside a depth map, the portrait effects matte gives the matte 
   CHECK(capture.notes.empty());
   CHECK(capture.matte.alpha.size() == 128 * 64);
   CHECK(Apart(capture.matte, Person) < 2);
-  CHECK(capture.light_field.disparity.at(48, 24) > 2 * capture.light_field.disparity.at(100, 24));
+  CHECK(At(capture, 48, 24) > 2 * At(capture, 100, 24));
   // Mattes turn with the picture.
   const Capture turned = OpenPhoto(Changed(file, "irot", 0, "\1"));
   CHECK(turned.matte.alpha.size() == 128 * 64);
@@ -275,11 +274,7 @@ TEST_CASE("HEIC: damaged mattes are ignored with a note if the photo has depth")
 }
 #endif
 
-// Elements of the XMP of auxiliary pictures, as Apple's cameras write them.
-std::string TypeXml(const std::string& type) {
-  return "<apdi:AuxiliaryImageType>" + type + "</apdi:AuxiliaryImageType>";
-}
-const std::string kWholeXml = TypeXml("depth") +
+const std::string kWholeXml = AppleType("depth") +
                               "<apdi:AuxiliaryImageSubType>portraiteffectsmatte"
                               "</apdi:AuxiliaryImageSubType>";
 
@@ -300,25 +295,21 @@ std::string AppleJpeg(const Image& matte, const std::string& elements) {
 
 TEST_CASE("Apple's JPEG: a matte is never a depth map, and gives the matte of the subject") {
   if (!CanReadXmp()) return;
-  const std::string disparity = AppleMap(Encode(Ramp(kWidth, kHeight), ".jpg"),
-                                         TypeXml("disparity") +
-                                             "<apdi:FloatMinValue>0.5</apdi:FloatMinValue>"
-                                             "<apdi:FloatMaxValue>2</apdi:FloatMaxValue>");
+  const std::string disparity =
+      AppleMap(Encode(Ramp(kWidth, kHeight), ".jpg"), AppleType("disparity") + kAppleRange);
   const Image matte = Halves(kWidth, kHeight, 255, 0);
   const auto is_left = [](int x, int) { return 2 * x < kWidth ? 255 : 0; };
   for (const std::string& type :
-       {kWholeXml, TypeXml("urn:com:apple:photo:2018:aux:portraiteffectsmatte"),
-        TypeXml("urn:com:apple:photo:2019:aux:semantichairmatte")}) {
+       {kWholeXml, AppleType("urn:com:apple:photo:2018:aux:portraiteffectsmatte"),
+        AppleType("urn:com:apple:photo:2019:aux:semantichairmatte")}) {
     Capture capture = OpenPhoto(AppleJpeg(matte, type) + disparity);
     CHECK(capture.format == "Apple depth photo (JPEG)");
-    CHECK(double(capture.light_field.disparity.at(0, 5)) ==
-          doctest::Approx(kPortrait / 4).epsilon(0.05));
+    CHECK(At(capture, 0, 5) == doctest::Approx(kPortrait / 4).epsilon(0.05));
     CHECK(Apart(capture.matte, is_left) < 2);
     capture = OpenPhoto(AppleJpeg(matte, type));
     CHECK(capture.format == "Apple photo with a matte (JPEG)");
-    CHECK(capture.light_field.disparity.at(kWidth - 2, 5) == 0);
-    CHECK(double(capture.light_field.disparity.at(2, 5)) ==
-          doctest::Approx(kPortrait).epsilon(0.01));
+    CHECK(At(capture, kWidth - 2, 5) == 0);
+    CHECK(At(capture, 2, 5) == doctest::Approx(kPortrait).epsilon(0.01));
     CHECK(Apart(capture.matte, is_left) < 2);
   }
 }
@@ -381,9 +372,8 @@ TEST_CASE("Dynamic Depth: a mask of the subject becomes the matte, with its soft
     CHECK(HasNote(capture, "a mask of the subject instead of a depth map, in which black is"));
     CHECK(FactOf(capture, "mattes") == "mask of the subject");
     CHECK(Apart(capture.matte, black) < 2);
-    CHECK(double(capture.light_field.disparity.at(0, 3)) ==
-          doctest::Approx(kPortrait).epsilon(0.01));
-    CHECK(capture.light_field.disparity.at(kWidth - 1, 3) == 0);
+    CHECK(At(capture, 0, 3) == doctest::Approx(kPortrait).epsilon(0.01));
+    CHECK(At(capture, kWidth - 1, 3) == 0);
   }
   CHECK(Apart(OpenMasked(ramp, linear, Near::kWhite).matte, white) < 2);
   CHECK(Apart(OpenMasked(ramp, "", Near::kWhite).matte, white) < 2);

@@ -46,11 +46,9 @@ void CheckRows(const std::string& format, const std::vector<Row>& rows) {
     CHECK(capture.photo);
     CHECK(capture.care == MapCare::kRepair);
     CHECK(capture.format == format);
-    const FloatMap& map = capture.light_field.disparity;
-    REQUIRE(map.width == kWidth);
-    REQUIRE(map.height == kHeight);
-    CHECK(double(map.at(0, 3)) == doctest::Approx(row.black).epsilon(row.tolerance));
-    CHECK(double(map.at(kWidth - 1, 3)) == doctest::Approx(row.white).epsilon(row.tolerance));
+    REQUIRE(capture.light_field.disparity.values.size() == size_t(kWidth) * kHeight);
+    CHECK(At(capture, 0, 3) == doctest::Approx(row.black).epsilon(row.tolerance));
+    CHECK(At(capture, kWidth - 1, 3) == doctest::Approx(row.white).epsilon(row.tolerance));
     for (const std::string& note : capture.notes) INFO(note);
     CHECK(HasNote(capture, row.note) == !row.note.empty());
   }
@@ -59,8 +57,6 @@ void CheckRows(const std::string& format, const std::vector<Row>& rows) {
 double LevelAt(int x) { return std::floor(x * 255.0 / (kWidth - 1)) / 255; }
 
 const std::string kOneHalfToFour = "GDepth:Near=\"0.5\" GDepth:Far=\"4\" ";
-const std::string kGuidName = std::string("xmpNote:HasExtendedXMP=\"") + kGuid + "\" ";
-
 std::string GdepthOf(const std::string& attributes) {
   return Gdepth(Photo(), attributes, Data(RampPng()));
 }
@@ -186,9 +182,7 @@ TEST_CASE("Dynamic Depth: the map is the item that the container names, even by 
 
 TEST_CASE("Apple's JPEG: the auxiliary disparities are found by any index, and without one") {
   if (!CanReadXmp()) return;
-  const std::string type = "<apdi:AuxiliaryImageType>disparity</apdi:AuxiliaryImageType>";
-  const std::string range =
-      "<apdi:FloatMinValue>0.5</apdi:FloatMinValue><apdi:FloatMaxValue>2</apdi:FloatMaxValue>";
+  const std::string type = AppleType("disparity"), range = kAppleRange;
   const std::string absolute = "<depthData:Accuracy>absolute</depthData:Accuracy>";
   const std::string wrong = "the wrong multi-picture index is ignored",
                     missing = "the file has no multi-picture index";
@@ -248,7 +242,7 @@ TEST_CASE("GDepth: the focus, the facts and the sharp picture of the file are us
   for (const int y : {0, 3}) CHECK(upright.row(y)[3 * (kHeight - 1)] == 255);
   CHECK(upright.row(4)[3 * (kHeight - 1)] == 0);
   CHECK(upright.row(0)[0] == 0);
-  CHECK(capture.light_field.disparity.at(5, 0) > capture.light_field.disparity.at(5, kWidth - 1));
+  CHECK(At(capture, 5, 0) > At(capture, 5, kWidth - 1));
   CHECK(capture.has_focus);
   CHECK(capture.focus_x == int(0.875 * kHeight));
   CHECK(capture.focus_y == kWidth / 4);
@@ -296,8 +290,8 @@ TEST_CASE("XMP that is lost or malformed is ignored for the depth picture next t
 // Returns an empty text if `file` contains a picture of the level `level` and the ramp of the depth
 // map, and otherwise the difference.
 std::string Difference(const std::string& file, int level = kOriginalLevel) {
-  const Span span = {reinterpret_cast<const uint8_t*>(file.data()), file.size()};
-  const Result<DepthPhoto> photo = DecodeDepthPhoto("photo.jpg", span, true, Near::kUnknown);
+  const Result<DepthPhoto> photo =
+      DecodeDepthPhoto("photo.jpg", SpanOf(file), true, Near::kUnknown);
   if (!photo) return photo.error().line();
   if (photo->map.values.empty()) return photo->map_problem;
   const int found = photo->picture.row(5)[30];
@@ -392,10 +386,6 @@ TEST_CASE("portraits: blur of the camera is noted, unless the file has the sharp
     CHECK(!HasNote(capture, "already blurred"));
   }
 #endif
-}
-
-Span SpanOf(const std::string& bytes) {
-  return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
 }
 
 TEST_CASE("HEIF: the brands of still pictures and sequences are found anywhere in the list") {

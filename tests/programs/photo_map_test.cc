@@ -89,8 +89,8 @@ TEST_CASE("clip: disparities of frames are proportional to those of one photo wi
           double worst = 0;
           for (int k = 0; k < kSide * kSide; ++k) {
             const int x = k % kSide, y = k / kSide;
-            const double expected = factor * double(all.light_field.disparity.at(i * kSide + x, y));
-            const double found = double(frame.light_field.disparity.at(x, y));
+            const double expected = factor * At(all, i * kSide + x, y);
+            const double found = At(frame, x, y);
             worst = std::max(worst, std::fabs(found - expected));
           }
           CAPTURE(i);

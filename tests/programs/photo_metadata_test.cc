@@ -17,6 +17,7 @@
 #include "platform/readers/sample_bits.h"
 #include "platform/readers/xmp.h"
 #include "platform/writers/jpeg.h"
+#include "tests/programs/depth_scene.h"
 #include "tests/support/error_line.h"
 #include "tests/support/opened_photo.h"
 #include "tests/support/photo_files.h"
@@ -24,7 +25,7 @@
 namespace starfocus::photo_metadata_test {
 namespace {
 
-using namespace photos;
+using namespace depth_scene;
 
 constexpr int kGiven = ColourDescription::kGiven, kAdobe = ColourDescription::kAdobeRgb;
 
@@ -153,8 +154,7 @@ std::string PngWith(const std::string& chunks) {
 }
 
 DepthPhoto Read(const std::string& name, const std::string& file) {
-  const Span span = {reinterpret_cast<const uint8_t*>(file.data()), file.size()};
-  return ValueOf(DecodeDepthPhoto(name, span, false, Near::kUnknown));
+  return ValueOf(DecodeDepthPhoto(name, SpanOf(file), false, Near::kUnknown));
 }
 
 std::string Gamma(uint32_t value) { return Chunk("gAMA", Big(value, 4)); }

@@ -92,18 +92,15 @@ TEST_CASE("depth photos: malformed attributes, maps, items and indices are rejec
   const std::string text = Packet(kGoogle, Data(RampPng()));
   std::vector<std::string> segments = ExtensionSegments(text, text.size() / 7);
   segments.pop_back();
-  const std::string named =
-      Packet(kGoogle, std::string("xmpNote:HasExtendedXMP=\"") + kGuid + "\" " + kInverse);
+  const std::string named = Packet(kGoogle, kGuidName + kInverse);
   std::string items;
   for (int k = 0; k < 65; ++k) items += ContainerItem("image/png", 1, "other");
   items += "<Camera:DepthMap DepthMap:DepthURI=\"other\"/>";
   const std::string dynamic = DynamicDepth(
       photo, RampPng(), "DepthMap:Format=\"RangeInverse\" DepthMap:Near=\"1\" DepthMap:Far=\"4\"");
-  const std::string map = AppleMap(Encode(Ramp(kWidth, kHeight), ".jpg"),
-                                   "<apdi:AuxiliaryImageType>disparity</apdi:AuxiliaryImageType>");
+  const std::string map = AppleMap(Encode(Ramp(kWidth, kHeight), ".jpg"), AppleType("disparity"));
   const std::string apple = MultiPicture(photo, map), lost = "a missing or truncated picture";
-  const std::string gain =
-      "<apdi:AuxiliaryImageType>urn:com:apple:photo:2020:aux:hdrgainmap</apdi:AuxiliaryImageType>";
+  const std::string gain = AppleType("urn:com:apple:photo:2020:aux:hdrgainmap");
   const std::vector<Row> rows = {
       {gdepth(kInverse, ""), "GDepth:Data"},
       {gdepth(kInverse, "GDepth:Data=\"&#38;&#38;&#38;&#38;\""), "base64"},
@@ -204,7 +201,7 @@ TEST_CASE("XMP: document types and packets beyond a limit are rejected") {
 
 TEST_CASE("HEIF: a picture that refers to itself or declares a wrong size is rejected at once") {
   const auto check = [](const std::string& file) {
-    return CheckHeif("a.heic", {reinterpret_cast<const uint8_t*>(file.data()), file.size()}).line();
+    return CheckHeif("a.heic", SpanOf(file)).line();
   };
   const std::string depth = Seed("heif/depth.heic");
   const auto sized = [&](const char* bytes) {  // the size in ispe is 8 bytes
@@ -262,8 +259,7 @@ TEST_CASE("decoding_memory: the size comes from the header in each format") {
     CHECK(estimate <= 3 * 37 * 22 * 16);
   }
   for (const std::string text : {"", "II*", "\xff\xd8\xff", "RIFF    WEBP", "\x89PNG\r\n"}) {
-    const Bytes bytes(text.begin(), text.end());
-    CHECK(DecodingBytes({bytes.data(), bytes.size()}) == UINT64_MAX);
+    CHECK(DecodingBytes(SpanOf(text)) == UINT64_MAX);
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens stereo pairs in one file, in two files, and in the folders of Middlebury whose maps are
-// grey pictures, and aligns pairs whose points differ in height. photo_formats_test.cc has the pairs
-// in HEIF, and layouts.txt the other folders.
+// grey pictures, and aligns pairs whose points differ in height. photo_formats_test.cc has the
+// pairs in HEIF, and layouts.txt the other folders.
 #include <doctest/doctest.h>
 
 #include <algorithm>
