@@ -74,9 +74,7 @@ TEST_CASE("mattes: every format of one matte gives the same light field") {
   // Values of 102/255 are exact in all formats.
   const FloatMap matte = MatteMap();
   std::string grey_and_opaque;
-  for (const float alpha : matte.values) {
-    grey_and_opaque += Big(uint32_t(std::lround(255 * double(alpha))), 1) + '\xff';
-  }
+  for (const uint8_t alpha : Matte(matte).alpha) grey_and_opaque += Big(alpha, 1) + '\xff';
   const LightField field = OpenMatted(1, AlphaPng(matte, 1)).light_field;
   for (const std::string& file :
        {AlphaPng(matte, 4), PfmOf(matte), PfmOf(Times(matte, 255)), NpyOf(matte),
