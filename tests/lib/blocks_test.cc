@@ -244,7 +244,7 @@ TEST_CASE("blocks: the scale multiplies N of both renderers, but not N of the be
           starfocus_report report = starfocus::NewReport();
           test::OutputOf(config, test::Params(radius, 1, mode, renderer), scene, &report);
           const bool slices = renderer != STARFOCUS_RENDERER_LINE_SCAN;
-          CHECK(report.r_max == radius);
+          CHECK(report.r_max == doctest::Approx(radius));
           CHECK(uint64_t(report.rendered_views) == ViewsFor(report.n, slices));
           return report.n;
         };
