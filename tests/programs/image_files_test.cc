@@ -125,10 +125,10 @@ Bytes Written(const std::string& name) {
   return ValueOf(ReadFile(folder.file(name)));
 }
 
-// Returns the position of a marker in a JPEG file.
-Bytes::iterator FindMarker(uint8_t marker, Bytes* jpeg) {
+// Returns the position of the first marker of a kind in a JPEG file, or the first after `from`.
+Bytes::iterator FindMarker(uint8_t marker, Bytes* jpeg, ptrdiff_t from = 0) {
   const uint8_t bytes[] = {0xff, marker};
-  const auto at = std::search(jpeg->begin(), jpeg->end(), bytes, bytes + 2);
+  const auto at = std::search(jpeg->begin() + from, jpeg->end(), bytes, bytes + 2);
   REQUIRE(at != jpeg->end());
   return at;
 }
@@ -285,13 +285,8 @@ TEST_CASE("image_io: JPEG of every kind that libjpeg-turbo reads has the right c
 
 TEST_CASE("image_io: a JPEG of more than 500 scans is rejected") {
   if (!HasLibjpeg()) return;
-  const Bytes seed = Seed("progressive.jpg");
-  const auto find = [&](uint8_t marker, size_t from) {
-    const uint8_t bytes[] = {0xff, marker};
-    return std::search(seed.begin() + ptrdiff_t(from), seed.end(), bytes, bytes + 2);
-  };
-  const auto scan = find(0xda, 0), next = find(0xc4, size_t(scan - seed.begin()));
-  REQUIRE(next != seed.end());
+  Bytes seed = Seed("progressive.jpg");
+  const auto scan = FindMarker(0xda, &seed), next = FindMarker(0xc4, &seed, scan - seed.begin());
   Bytes bytes(seed.begin(), next);
   for (int i = 0; i < 501; ++i) bytes.insert(bytes.end(), scan, next);
   bytes.insert(bytes.end(), next, seed.end());
