@@ -125,10 +125,10 @@ Bytes Written(const std::string& name) {
   return ValueOf(ReadFile(folder.file(name)));
 }
 
-// Returns the position of a marker in a JPEG file.
-Bytes::iterator FindMarker(uint8_t marker, Bytes* jpeg) {
+// Returns the position of the first marker of a kind in a JPEG file, or the first after `from`.
+Bytes::iterator FindMarker(uint8_t marker, Bytes* jpeg, ptrdiff_t from = 0) {
   const uint8_t bytes[] = {0xff, marker};
-  const auto at = std::search(jpeg->begin(), jpeg->end(), bytes, bytes + 2);
+  const auto at = std::search(jpeg->begin() + from, jpeg->end(), bytes, bytes + 2);
   REQUIRE(at != jpeg->end());
   return at;
 }
@@ -184,9 +184,8 @@ TEST_CASE("image_io: a JPEG table has at most 256 codes") {
   }
 }
 
-TEST_CASE("image_io: no file remains if an output cannot be written") {
+TEST_CASE("image_io: no file remains if a picture cannot be written") {
   TempFolder folder;
-  std::filesystem::create_directory(folder.file("folder.png"));
   Image large;
   large.width = large.height = 40000;
   // The encoders count bytes in an int. A larger picture would overflow the count, and the encoder
@@ -194,17 +193,10 @@ TEST_CASE("image_io: no file remains if an output cannot be written") {
   for (const char* name : {"a.png", "a.jpg"}) {
     CHECK(Contains(WriteImage(folder.file(name), large), "40000x40000"));
   }
-  for (const auto& [name, error] : {std::pair{"a.bmp", ".bmp"},
-                                    {"a.gif", ".gif"},
-                                    {"a", "no extension"},
-                                    {"none/a.png", "none"},
-                                    {"folder.png", "folder.png"}}) {
-    CHECK(Contains(WriteImage(folder.file(name), Pattern(3, 3)), error));
-    CHECK(Contains(CheckImageOutput(folder.file(name)), error));
+  for (const char* name : {"a.bmp", "none/a.png"}) {
+    CHECK(Contains(WriteImage(folder.file(name), Pattern(3, 3)), name));
   }
-  CHECK(folder.count() == 1);
-  CHECK(CheckImageOutput(folder.file("a.jpeg")) == "");
-  CHECK(CheckImageOutput("a.PPM") == "");
+  CHECK(folder.count() == 0);
 }
 
 // Returns a PNG file of one row.
@@ -293,13 +285,8 @@ TEST_CASE("image_io: JPEG of every kind that libjpeg-turbo reads has the right c
 
 TEST_CASE("image_io: a JPEG of more than 500 scans is rejected") {
   if (!HasLibjpeg()) return;
-  const Bytes seed = Seed("progressive.jpg");
-  const auto find = [&](uint8_t marker, size_t from) {
-    const uint8_t bytes[] = {0xff, marker};
-    return std::search(seed.begin() + ptrdiff_t(from), seed.end(), bytes, bytes + 2);
-  };
-  const auto scan = find(0xda, 0), next = find(0xc4, size_t(scan - seed.begin()));
-  REQUIRE(next != seed.end());
+  Bytes seed = Seed("progressive.jpg");
+  const auto scan = FindMarker(0xda, &seed), next = FindMarker(0xc4, &seed, scan - seed.begin());
   Bytes bytes(seed.begin(), next);
   for (int i = 0; i < 501; ++i) bytes.insert(bytes.end(), scan, next);
   bytes.insert(bytes.end(), next, seed.end());
