@@ -40,13 +40,6 @@ inline void SetPixels(int view, const std::vector<uint8_t>& codes, size_t stride
   if (view == 0) input->centre = {codes.data(), stride, 0, 0};
 }
 
-// Sets the views of `input` to the star set of 1, 5, 9 or 17 views.
-inline void SetStar(int views, starfocus::Input* input) {
-  test::Config config;
-  config.views = views;
-  SetViews(config, input);
-}
-
 // Sets the views of `input` to the centre view and side views at the positions `sides`.
 inline void SetPositions(const std::vector<starfocus_position>& sides, starfocus::Input* input) {
   test::Config config;

@@ -320,31 +320,10 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
   return block;
 }
 
-// Returns the cost of every partition of a block, by brute force.
-inline std::vector<uint64_t> AllCosts(const Plan& plan, int x, int y, int side) {
-  std::vector<uint64_t> costs = {Planned(plan, x, y, side).cost};
-  if (side == kSmallestBlock) return costs;
-  std::vector<uint64_t> sums = {0};
-  for (int child = 0; child < 4; ++child) {
-    const int cx = x + child % 2 * side / 2, cy = y + child / 2 * side / 2;
-    if (!plan.Inside(cx, cy)) continue;
-    std::vector<uint64_t> longer;
-    for (const uint64_t cost : AllCosts(plan, cx, cy, side / 2)) {
-      for (const uint64_t sum : sums) longer.push_back(sum + cost);
-    }
-    sums = longer;
-  }
-  costs.insert(costs.end(), sums.begin(), sums.end());
-  return costs;
-}
-
-// Returns the smallest cost of all partitions of a block, even if the partitions are too many to
-// list.
+// Returns the smallest cost of all partitions of a block, by recursion: the cost of its parts is the
+// sum of their smallest costs.
 inline uint64_t LeastCost(const Plan& plan, int x, int y, int side) {
-  if (side <= 64) {
-    const std::vector<uint64_t> all = AllCosts(plan, x, y, side);
-    return *std::min_element(all.begin(), all.end());
-  }
+  if (side == kSmallestBlock) return Planned(plan, x, y, side).cost;
   uint64_t split = 0;
   for (int child = 0; child < 4; ++child) {
     const int cx = x + child % 2 * side / 2, cy = y + child / 2 * side / 2;

@@ -59,22 +59,14 @@ inline double PerDiopter(double focal) {
 // a 50 mm lens.
 inline const double kPortrait = PerDiopter(50) / 1.5;
 
+// Checks that the disparities of a photo are a ramp from `at_black` on the left to `at_white` on the
+// right.
 inline void CheckRamp(const Capture& capture, double at_black, double at_white) {
   const FloatMap& map = capture.light_field.disparity;
   REQUIRE(map.width == kWidth);
   REQUIRE(map.height == kHeight);
   CHECK(double(map.at(0, 3)) == doctest::Approx(at_black).epsilon(1e-4));
   CHECK(double(map.at(kWidth - 1, 3)) == doctest::Approx(at_white).epsilon(1e-4));
-}
-
-// Opens a photo, and checks that its disparities are a ramp from `at_black` on the left to
-// `at_white` on the right.
-inline Capture OpenRamp(const std::string& bytes, double at_black, double at_white,
-                        const CaptureOptions& options = {}) {
-  Capture capture;
-  REQUIRE(Open(bytes, &capture, options) == "");
-  CheckRamp(capture, at_black, at_white);
-  return capture;
 }
 
 inline std::string FactOf(const Capture& capture, const std::string& name) {
