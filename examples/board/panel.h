@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interprets signal edges on the GPIO lines of a camera's controls: a rotary encoder for the focus, a
-// button for the aperture, and a button for the shutter. The module performs no I/O and reads no
+// Interprets signal edges on the GPIO lines of a camera's controls: a rotary encoder for the focus,
+// a button for the aperture, and a button for the shutter. The module performs no I/O and reads no
 // clock, so that tests can replay any sequence of edges.
 #ifndef STARFOCUS_EXAMPLES_BOARD_PANEL_H_
 #define STARFOCUS_EXAMPLES_BOARD_PANEL_H_

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds and opens the frames of a video, which are inputs of any format, and pairs them with depth
-// pictures or mattes in a folder of their own. All frames are checked before work begins. Frames that
-// are not light-field folders are converted to light-field folders in a temporary folder.
+// pictures or mattes in a folder of their own. All frames are checked before work begins. Frames
+// that are not light-field folders are converted to light-field folders in a temporary folder.
 #ifndef STARFOCUS_EXAMPLES_CLI_FRAMES_H_
 #define STARFOCUS_EXAMPLES_CLI_FRAMES_H_
 

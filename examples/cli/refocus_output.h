@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "examples/cli/comparison.h"
 #include "examples/cli/engine_run.h"
 #include "examples/cli/json.h"
-#include "examples/cli/comparison.h"
 #include "examples/command_line/command.h"
 #include "examples/command_line/program.h"
 #include "platform/file.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of a program's subcommands and their options, for the parser, the help, the manual page and
-// the completion script. Strings must outlive the table that contains them. The first level of the
-// help (--help) contains the options that most users need, and the second level (--help-all) contains
-// all options.
+// Tables of a program's subcommands and their options, for the parser, the help, the manual page
+// and the completion script. Strings must outlive the table that contains them. The first level of
+// the help (--help) contains the options that most users need, and the second level (--help-all)
+// contains all options.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_COMMAND_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_COMMAND_H_
 

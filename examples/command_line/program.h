@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Code that the main functions of all programs share, and the check of all output files of a command
-// before the command starts to work.
+// Code that the main functions of all programs share, and the check of all output files of a
+// command before the command starts to work.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_PROGRAM_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_PROGRAM_H_
 

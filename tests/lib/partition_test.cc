@@ -320,8 +320,8 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
   return block;
 }
 
-// Returns the smallest cost of all partitions of a block, by recursion: the cost of its parts is the
-// sum of their smallest costs.
+// Returns the smallest cost of all partitions of a block, by recursion: the cost of its parts is
+// the sum of their smallest costs.
 inline uint64_t LeastCost(const Plan& plan, int x, int y, int side) {
   if (side == kSmallestBlock) return Planned(plan, x, y, side).cost;
   uint64_t split = 0;

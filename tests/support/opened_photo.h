@@ -59,8 +59,8 @@ inline double PerDiopter(double focal) {
 // a 50 mm lens.
 inline const double kPortrait = PerDiopter(50) / 1.5;
 
-// Checks that the disparities of a photo are a ramp from `at_black` on the left to `at_white` on the
-// right.
+// Checks that the disparities of a photo are a ramp from `at_black` on the left to `at_white` on
+// the right.
 inline void CheckRamp(const Capture& capture, double at_black, double at_white) {
   const FloatMap& map = capture.light_field.disparity;
   REQUIRE(map.width == kWidth);

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "examples/cli/commands.h"
+#include "examples/cli/comparison.h"
 #include "examples/cli/estimate_run.h"
 #include "examples/cli/input.h"
-#include "examples/cli/comparison.h"
 #include "examples/cli/pictures.h"
 #include "examples/cli/refocus_output.h"
 #include "examples/cli/refocus_plan.h"
