@@ -425,7 +425,7 @@ TEST_CASE("structures: the defaults match the documentation in the headers") {
   }
 }
 
-TEST_CASE("facts: the version of the library is facts: the version of the headers") {
+TEST_CASE("facts: the version of the library is the version of the headers") {
   uint32_t abi = 0;
   CHECK(starfocus_version(&abi) == std::string(STARFOCUS_VERSION_STRING));
   CHECK(abi == STARFOCUS_ABI);

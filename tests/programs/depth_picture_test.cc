@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables of depth pictures in separate files: each row has a file, the options, the disparities of
 // some pixels, and the notes. The rows test unknown values, units, infinite distances and near
-// ends. photo_refusals_test.cc has the depth pictures that are rejected, and tests/programs the
-// formats of arrays. Further cases test the filling and the orientation.
+// ends. photo_refusals_test.cc has the depth pictures that are rejected, and depth_file_test.cc
+// has the formats of arrays. Further cases test the filling and the orientation.
 #include <doctest/doctest.h>
 
 #include <algorithm>

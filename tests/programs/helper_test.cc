@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tests the process that decodes files: limits of time and memory, crashes, and what it may do.
 #include "platform/helper/helper.h"
 
 #include <doctest/doctest.h>

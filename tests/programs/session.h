@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the program STARFOCUS_PROGRAM, or starfocus-lab in the same folder, as tables of command
-// lines state.
+// Runs the program STARFOCUS_PROGRAM, or starfocus-lab in the same folder, as tables of sessions
+// state. The first lines of each table, tests/programs/*.txt, name the test that runs it.
 //
-// A table of refusals has lines "ARGUMENTS -> TEXT", which CheckRefusals checks. A table of
-// sessions has sessions, each of which starts in an empty folder. A session consists of the line
-// "== NAME" followed by these lines:
-//   $ ARGUMENTS          calls the program, which must succeed
-//   ! ARGUMENTS -> TEXT  calls the program, which must fail with this text (CheckRefused)
-//   out TEXT, err TEXT   the last call must have printed the text
-//   no out TEXT          the last call must not have printed the text; also with err
-//   only out TEXT        the last call must have printed only the text; also with err
-//   % COMMAND            runs a shell command, which must succeed; `starfocus` and `lab` are
-//   programs psnr A B LEAST       the pictures A and B must agree to this PSNR in dB (inf: be
-//   equal) closer T A B GAIN    the PSNR of T and A must exceed that of T and B by more than the
-//   gain in dB map DIR [VALUE] [X,Y,W,H=VALUE]...
-//                        sets all disparities of a light field, and those in rectangles
-//   @ NAME               makes inputs with one of the preparations
+// Each session starts in an empty folder and consists of the line "== NAME" and these lines:
+// clang-format off
+//   $ ARGUMENTS             calls the program, which must succeed
+//   ! ARGUMENTS -> TEXT     calls the program, which must fail with this text (CheckRefused)
+//   out TEXT, err TEXT      the last call must have printed the text
+//   no out TEXT             the last call must not have printed the text; also with err
+//   only out TEXT           the last call must have printed only the text; also with err
+//   % COMMAND               runs a shell command, which must succeed; `starfocus` and `lab` are programs
+//   psnr A B LEAST          the pictures A and B must agree to this PSNR in dB (inf: be equal)
+//   closer T A B GAIN       the PSNR of T and A must exceed that of T and B by more than the gain in dB
+//   map DIR [VALUE] [X,Y,W,H=VALUE]...
+//                           sets all disparities of a light field, and those in rectangles
+//   @ NAME                  makes inputs with one of the preparations of the test
+// clang-format on
 #ifndef STARFOCUS_TESTS_PROGRAMS_SESSION_H_
 #define STARFOCUS_TESTS_PROGRAMS_SESSION_H_
 
@@ -87,9 +87,9 @@ inline void Succeed(const TempFolder& folder, const std::string& arguments) {
 
 // Returns an error line without the name of the program at its start.
 inline std::string ErrorOf(const std::string& err) {
-  const size_t begin = err.rfind("starfocus-lab: ", 0) == 0 ? 15 : 11;
-  CHECK((begin == 15 || err.rfind("starfocus: ", 0) == 0));
-  return err.substr(std::min(begin, err.size()));
+  const bool lab = err.rfind("starfocus-lab: ", 0) == 0, named = err.rfind("starfocus: ", 0) == 0;
+  CHECK_MESSAGE((lab || named), "the error must begin with the name of the program");
+  return err.substr(std::min<size_t>(lab ? 15 : 11, err.size()));
 }
 
 // Checks that stderr is one line that begins with the name of the program. The line must state what
@@ -113,6 +113,7 @@ inline void CheckRefused(const TempFolder& folder, const std::string& arguments,
   const int before = folder.count();
   const Outcome outcome = Call(folder, arguments);
   CAPTURE(outcome.err);
+  REQUIRE_MESSAGE(outcome.code != 0, "the call must fail");
   bool usage = false;
   for (const char* what :
        {"-", "command line: ", "DIR: ", "SRC: ", "COMMAND: ", "A: ", "B: ", "IMG: "}) {
@@ -235,7 +236,8 @@ inline void CheckOutcome(std::string line, const Outcome& last) {
   const bool has = line.rfind("no ", 0) != 0, only = line.rfind("only ", 0) == 0;
   if (!has || only) line.erase(0, only ? 5 : 3);
   const bool is_known = line.rfind("out", 0) == 0 || line.rfind("err", 0) == 0;
-  REQUIRE_MESSAGE(is_known, line);
+  const bool ends = line.size() == 3 || line[3 % line.size()] == ' ';
+  REQUIRE_MESSAGE((is_known && ends), "session.h does not describe this line");
   const std::string& printed = line[0] == 'o' ? last.out : last.err;
   CAPTURE(printed);
   if (only) CHECK(printed == line.substr(4) + "\n");
@@ -248,20 +250,28 @@ inline void RunSessions(const std::string& name, const Preparations& preparation
   std::string session;
   std::unique_ptr<TempFolder> folder;
   Outcome last;
+  int number = 0, lines = 1;  // lines of the table; lines of the session
   for (std::string line; std::getline(table, line);) {
-    CAPTURE(session);
-    CAPTURE(line);
-    const std::string rest = line.substr(std::min<size_t>(2, line.size()));
+    ++number;
     if (line.empty() || line[0] == '#') continue;
+    INFO(name, ":", number, ": ", line, "  (", session, ")");
+    const std::string rest = line.substr(std::min<size_t>(2, line.size()));
     if (line[0] == '=') {
+      CHECK_MESSAGE(lines > 0, "the session before this line is empty");
       session = line;
       folder = std::make_unique<TempFolder>();
-    } else if (line[0] == '$') {
+      lines = 0;
+      continue;
+    }
+    REQUIRE_MESSAGE(folder != nullptr, "a line before the first session");
+    ++lines;
+    if (line[0] == '$') {
       last = Call(*folder, rest);
       CAPTURE(last.err);
       CHECK(last.code == 0);
     } else if (line[0] == '!') {
       const size_t arrow = rest.find(" -> ");
+      REQUIRE_MESSAGE(arrow != std::string::npos, "expected \" -> \" and a text of the error");
       CheckRefused(*folder, rest.substr(0, arrow), rest.substr(arrow + 4));
     } else if (line[0] == '%') {
       CHECK(RunShell(*folder, rest) == 0);
@@ -270,12 +280,15 @@ inline void RunSessions(const std::string& name, const Preparations& preparation
     } else if (line.rfind("map ", 0) == 0) {
       ChangeMap(*folder, line.substr(4));
     } else if (line[0] == '@') {
-      preparations.at(rest)(*folder);
+      const auto preparation = preparations.find(rest);
+      REQUIRE_MESSAGE(preparation != preparations.end(),
+                      "the test has no preparation of this name");
+      preparation->second(*folder);
     } else {
       CheckOutcome(line, last);
     }
   }
-  CHECK(!session.empty());
+  CHECK((lines > 0 && folder != nullptr));
 }
 
 }  // namespace starfocus
