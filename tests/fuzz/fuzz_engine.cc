@@ -103,7 +103,9 @@ void SetParams(const test::Config& config, Input* input, starfocus::Params* give
                      input->Int(0, config.width), input->Int(0, config.height)};
   }
   SpoilRarely(input, &params, sizeof params);
-  params.previous = nullptr;  // the caller passes only valid pointers
+  // The caller passes only valid pointers.
+  params.previous = nullptr;
+  given->starfocus_params::study = &params.study;
 }
 
 struct Pictures {
