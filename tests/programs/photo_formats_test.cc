@@ -268,7 +268,8 @@ TEST_CASE("XMP that is lost or malformed is ignored for the depth picture next t
        "GDepth:Data: expected a picture in base64"},
       {with(Packet(kGoogle, kInverse + Data("no picture"))), "GDepth:Data: expected a PNG"},
       {Unnamed(kInverse), ""}};  // the file has a map
-  for (const auto& [file, note] : rows) {
+  for (const auto& row : rows) {
+    const std::string &file = row.first, &note = row.second;
     CAPTURE(note);
     TempFolder folder;
     Write(folder.file("photo.jpg"), file);
