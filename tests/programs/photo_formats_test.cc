@@ -400,7 +400,9 @@ TEST_CASE("HEIF: the brands of still pictures and sequences are found anywhere i
 }
 
 TEST_CASE("HEIF: sizes are read from the headers of the codecs") {
-  const HeifItems items = ReadHeifItems(SpanOf(Seed("heif/depth.heic"))).value();
+  // The items refer to the bytes of the files.
+  const std::string photo = Seed("heif/depth.heic"), avif = Seed("heif/plain.avif");
+  const HeifItems items = ReadHeifItems(SpanOf(photo)).value();
   REQUIRE(items.size() == 4);
   CHECK(items.at(2).type == "grid");
   CHECK(items.at(2).inputs == std::vector<uint32_t>{1});
@@ -408,7 +410,7 @@ TEST_CASE("HEIF: sizes are read from the headers of the codecs") {
   const CodedSize hevc = HevcSize(items.at(1).configuration, items.at(1).head);
   CHECK(hevc.width == 64);
   CHECK(hevc.height == 64);
-  const HeifItem item = ReadHeifItems(SpanOf(Seed("heif/plain.avif"))).value().at(1);
+  const HeifItem item = ReadHeifItems(SpanOf(avif)).value().at(1);
   const CodedSize av1 = Av1Size(item.configuration, item.head);
   CHECK(av1.width == 24);
   CHECK(av1.height == 16);
