@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pages and strips of several pictures of one light field, for `view` and `refocus --compare`. A
-// page is one HTML file: its pictures are data URIs, and it loads no other files. Ground-truth
-// pictures beside the light field are found and compared.
+// page is one HTML file: its pictures are data URIs, and it loads no other files. If the
+// folder of a light field has ground-truth pictures, they are compared.
 #ifndef STARFOCUS_EXAMPLES_CLI_COMPARISON_H_
 #define STARFOCUS_EXAMPLES_CLI_COMPARISON_H_
 

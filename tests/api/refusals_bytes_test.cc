@@ -215,7 +215,7 @@ const Change kPictureChanges[] = {
     {kTakesParams, "aperture", STARFOCUS_ERROR_BLUR, [](Call* c) { c->params.focus = 6.5; }},
     {kTakesParams, "aperture", STARFOCUS_ERROR_BLUR, [](Call* c) { c->params.focus = -6.5; }},
     {kTakesParams, "aperture", STARFOCUS_ERROR_BLUR, [](Call* c) { c->params.focus = 1e6; }},
-    // A prepared light field and an engine are told apart.
+    // A call that gets a prepared light field for an engine, or the reverse, is refused.
     {kPrepared | kPreview, "prepared", kOther,
      [](Call* c) { c->prepared = reinterpret_cast<starfocus_prepared*>(c->engine); }},
     {kPrepared | kPreview | kBegin, "previous", kRange,
