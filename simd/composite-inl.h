@@ -9,57 +9,6 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Rows of a strip are contiguous in memory, so that the widest vectors can hold two rows.
-#undef STARFOCUS_WIDE_TILES
-#if HWY_TARGET != HWY_SCALAR && HWY_MAX_BYTES >= 64
-#define STARFOCUS_WIDE_TILES 1
-using StripTag = hn::CappedTag<int16_t, 2 * kSliceLanes>;
-#else
-#define STARFOCUS_WIDE_TILES 0
-using StripTag = LanesTag;
-#endif
-
-// True if Composite has a separate path for fully covered rows. With vectors narrower than 32
-// bytes, the tests for fully covered rows cost more instructions than the separate path saves.
-constexpr bool kCoveredApart = HWY_MAX_BYTES >= 32;
-
-// True if Composite skips work by testing each vector for coverage and for slices in front. The
-// branches that test each vector are unpredictable. On x86, branch mispredictions would cost up to
-// 12 % of the time, so Composite tests only the precomputed marks of whole rows. On ARM, using only
-// the marks of rows takes 3 to 5 % more instructions than testing each vector.
-constexpr bool kBehindFirst = !HWY_ARCH_X86;
-
-// Returns the number of rows of a strip in a vector, or 1 if a vector holds only a part of a row.
-template <class D>
-HWY_INLINE size_t RowsOf(D d) {
-  return hn::Lanes(d) > kSliceLanes ? hn::Lanes(d) / kSliceLanes : 1;
-}
-
-// Writes one mark per row, which states whether a slice covers the row and the next rows. Rows must
-// be added in order, starting with the first row.
-class RowMarks {
- public:
-  // Adds a row. `most` and `least` are the largest and the smallest coverage over all vectors of
-  // the row.
-  HWY_INLINE void Add(LanesVec most, LanesVec least, int8_t* HWY_RESTRICT near) {
-    const LanesTag d16;
-    const bool some = !AllZero(d16, most);
-    const bool all = hn::AllTrue(d16, hn::Eq(least, hn::Set(d16, kSliceOne)));
-    if (some) near[0] = 0;
-    if (some && !shown_) {
-      for (int8_t k = 1; k <= kAhead && near[-k] > k; ++k) near[-k] = k;
-    }
-    shown_ = some;
-    all_covered_ = all ? all_covered_ + 1 : 0;
-    if (all_covered_ > kAhead) near[-kAhead] = kCoveredNear;
-  }
-
- private:
-  static constexpr int kAhead = kRowsAhead;
-  bool shown_ = false;   // True if the slice covers a pixel of the last row.
-  int all_covered_ = 0;  // Number of consecutive fully covered rows that end with the last row.
-};
-
 // Calls act(taps), with `taps` as a compile-time constant.
 template <class Act>
 HWY_INLINE void CallWithTaps(int taps, const Act& act) {
@@ -72,270 +21,335 @@ HWY_INLINE void CallWithTaps(int taps, const Act& act) {
   }
 }
 
-// Shifts rows one at a time, with vectors of at most one row. Wider vectors that combine the planes
-// of two rows are slower.
-template <int kTaps>
-HWY_INLINE void ShiftRows(const int16_t* in, size_t in_plane, const SliceOffset& offset,
-                          size_t rows, size_t plane, int16_t* HWY_RESTRICT out,
-                          int8_t* HWY_RESTRICT near) {
-  const LanesTag d;
-  const size_t lanes = hn::Lanes(d);
-  const auto inside = hn::Set(d, offset.inside), edge = hn::Set(d, offset.edge);
-  const auto third = hn::Set(d, offset.third), fourth = hn::Set(d, offset.fourth);
-  const int16_t* const first_row = in + offset.whole;
-  RowMarks marks;
-  for (size_t row = 0; row < rows; ++row, out += kSliceLanes) {
-    auto most = hn::Zero(d), least = hn::Set(d, kSliceOne);
-    for (size_t n = 0; n < kSliceLanes; n += lanes) {
-      const int16_t* HWY_RESTRICT from = first_row + row * 4 * in_plane + n;
-      const auto load = [&](size_t c, size_t next)
-                            HWY_ATTR { return hn::LoadU(d, from + c * in_plane + next); };
-      const auto covered = load(3, 0), next = load(3, 1);
-      auto any = hn::Or(covered, next);
-      if (kTaps > 2) any = hn::Or(any, load(3, 2));
-      if (kTaps > 3) any = hn::Or(any, load(3, 3));
-      if (AllZero(d, any)) {
-        for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d), d, out + c * plane + n);
-        least = hn::Zero(d);
-        continue;
-      }
-      const auto first = kTaps > 2 ? edge : hn::IfThenElse(hn::Eq(covered, next), inside, edge);
-      const auto between = [&](size_t c) HWY_ATTR {
-        const auto middle = load(c, 1);
-        auto value = hn::Add(middle, hn::MulFixedPoint15(hn::Sub(middle, load(c, 0)), first));
-        if (kTaps == 2) return value;
-        const auto after = load(c, 2);
-        value = hn::Add(value, hn::MulFixedPoint15(hn::Sub(middle, after), third));
-        if (kTaps == 3) return value;
-        return hn::Add(value, hn::MulFixedPoint15(hn::Sub(after, load(c, 3)), fourth));
-      };
-      for (size_t c = 0; c < 3; ++c) hn::StoreU(between(c), d, out + c * plane + n);
-      const auto shown = between(3);
-      hn::StoreU(shown, d, out + 3 * plane + n);
-      most = hn::Max(most, shown);
-      least = hn::Min(least, shown);
-    }
-    marks.Add(most, least, near + row);
-  }
-}
-
-inline void ShiftSlice(const int16_t* in, size_t in_plane, const SliceOffset& offset, size_t rows,
-                       size_t plane, int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near) {
-  CallWithTaps(offset.taps, [&](auto taps) HWY_ATTR {
-    ShiftRows<decltype(taps)::value>(in, in_plane, offset, rows, plane, out, near);
-  });
-}
-
-using SliceVec = hn::Vec<StripTag>;
-
-// Returns 16-bit sums divided by 2^bits, rounded half up.
-HWY_INLINE SliceVec DividedSums(SliceVec value, int bits) {
-  const StripTag d;
-  const hn::RebindToUnsigned<StripTag> d16;
-  const auto half = hn::Set(d16, static_cast<uint16_t>(1 << bits >> 1));
-  return hn::BitCast(d, hn::ShiftRightSame(hn::Add(hn::BitCast(d16, value), half), bits));
-}
-
-// Adds 16-bit values to 32-bit sums, for at most `rows` rows.
-HWY_INLINE void AddSums(SliceVec value, size_t rows, uint32_t* HWY_RESTRICT sums) {
-  const StripTag d;
-  const hn::RebindToUnsigned<StripTag> d16;
-  const hn::CappedTag<uint32_t, kSliceLanes> d32;
-  const hn::Rebind<uint16_t, decltype(d32)> part;
-  const size_t each = hn::Lanes(d) / RowsOf(d);
-  uint16_t bits[2 * kSliceLanes];
-  hn::StoreU(hn::BitCast(d16, value), d16, bits);
-  const size_t most = RowsOf(d) < rows ? RowsOf(d) : rows;
-  for (size_t row = 0; row < most; ++row, sums += 4 * kSliceLanes) {
-    for (size_t n = 0; n < each; n += hn::Lanes(d32)) {
-      const auto more = hn::PromoteTo(d32, hn::LoadU(part, bits + row * kSliceLanes + n));
-      hn::StoreU(hn::Add(hn::LoadU(d32, sums + n), more), d32, sums + n);
-    }
-  }
-}
-
-// Returns light / covered for lanes in which the quotient is less than one, computed like
-// SliceShare in the reference.
-HWY_INLINE SliceVec ShareOfLight(SliceVec covered, SliceVec light, SliceVec excess) {
-  const StripTag d16;
-  const auto one = hn::Set(d16, kSliceOne);
-  const auto open = hn::Sub(one, covered);
-  const auto first = hn::MulFixedPoint15(excess, open);
-  const auto second = hn::MulFixedPoint15(first, open);
-  const auto taken = hn::SaturatedAdd(hn::SaturatedAdd(excess, first), second);
-  const auto twice = hn::SaturatedAdd(light, light);
-  return hn::Min(hn::Sub(one, taken), hn::SaturatedAdd(twice, twice));
-}
-
-// Visibility of a slice in a group of rows of a view, as known before compositing.
-enum class Known {
-  kLit,  // No slice in front covers any pixel of these rows.
-  // The condition of kLit holds, and the slice covers all pixels of these rows completely, so that
-  // it hides all slices behind it.
-  kCovered,
-  kNothing,
+// Factors of the interpolation of SliceOffset. The members are references, because vectors of some
+// targets cannot be members.
+template <class V>
+struct Factors {
+  const V &inside, &edge, &third, &fourth;
 };
 
-// Colours and coverage of a slice, or their sums over views. The members are references, because
-// vectors of some targets cannot be members.
-struct ViewSums {
-  SliceVec &r, &g, &b, &covered;
-};
-
-// Adds a slice's colours and coverage to the sums of a view, and subtracts the coverage from the
-// remaining light. `excess` is the part of the coverage that exceeds the remaining light. The
-// excess does not contribute to the sums.
-template <Known kKnown>
-HWY_INLINE void AddSlice(SliceVec weight, const ViewSums& slice, SliceVec excess, SliceVec& light,
-                         const ViewSums& sums) {
-  const StripTag d16;
-  const auto taken = hn::Sub(slice.covered, excess);
-  if (kKnown == Known::kNothing && !(kBehindFirst && AllZero(d16, excess))) {
-    const auto over = hn::Gt(slice.covered, light);
-    const auto share = ShareOfLight(slice.covered, light, excess);
-    const auto lit = [&](SliceVec value) HWY_ATTR {
-      return hn::IfThenElse(over, hn::MulFixedPoint15(value, share), value);
-    };
-    slice.r = lit(slice.r);
-    slice.g = lit(slice.g);
-    slice.b = lit(slice.b);
-    slice.covered = lit(slice.covered);
-  }
-  light = hn::Sub(light, taken);
-  sums.r = hn::Add(sums.r, hn::MulFixedPoint15(weight, slice.r));
-  sums.g = hn::Add(sums.g, hn::MulFixedPoint15(weight, slice.g));
-  sums.b = hn::Add(sums.b, hn::MulFixedPoint15(weight, slice.b));
-  sums.covered = hn::Add(sums.covered, hn::MulFixedPoint15(weight, slice.covered));
+// Interpolates between kTaps samples that are `next` apart.
+template <int kTaps, class D, class V = hn::Vec<D>>
+HWY_INLINE V Between(D d, const int16_t* HWY_RESTRICT at, size_t next, V first,
+                     const Factors<V>& factors) {
+  const auto middle = hn::LoadU(d, at + next);
+  auto value = hn::Add(middle, hn::MulFixedPoint15(hn::Sub(middle, hn::LoadU(d, at)), first));
+  if (kTaps == 2) return value;
+  const auto after = hn::LoadU(d, at + 2 * next);
+  value = hn::Add(value, hn::MulFixedPoint15(hn::Sub(middle, after), factors.third));
+  if (kTaps == 3) return value;
+  const auto last = hn::Sub(after, hn::LoadU(d, at + 3 * next));
+  return hn::Add(value, hn::MulFixedPoint15(last, factors.fourth));
 }
 
-// Adds the contribution of a slice to a vector of rows of a view. `at` is the first sample of the
-// slice. Each row of the view is interpolated from kTaps (2 to 4) rows of the slice.
-template <int kTaps, Known kKnown>
-HWY_INLINE void AddRows(const SliceOffset& offset, size_t plane, const int16_t* HWY_RESTRICT at,
-                        SliceVec weight, SliceVec& light, const ViewSums& sums) {
-  const StripTag d16;
-  constexpr bool kCovered = kKnown == Known::kCovered;
-  const auto load = [&](const int16_t* from) HWY_ATTR { return hn::LoadU(d16, from); };
-  const int16_t* HWY_RESTRICT cover = at + 3 * plane;
-  auto first = hn::Set(d16, offset.edge);
-  const auto third = hn::Set(d16, offset.third);
-  const auto fourth = hn::Set(d16, offset.fourth);
-  if (kTaps == 2) {
-    const auto inside = hn::Set(d16, offset.inside);
-    first = kCovered
-                ? inside
-                : hn::IfThenElse(hn::Eq(load(cover), load(cover + kSliceLanes)), inside, first);
-  }
-  const auto between = [&](const int16_t* from) HWY_ATTR {
-    const auto middle = load(from + kSliceLanes);
-    auto value = hn::Add(middle, hn::MulFixedPoint15(hn::Sub(middle, load(from)), first));
-    if (kTaps == 2) return value;
-    const auto below = load(from + 2 * kSliceLanes);
-    value = hn::Add(value, hn::MulFixedPoint15(hn::Sub(middle, below), third));
-    if (kTaps == 3) return value;
-    const auto last = hn::Sub(below, load(from + 3 * kSliceLanes));
-    return hn::Add(value, hn::MulFixedPoint15(last, fourth));
-  };
-  auto covered = kCovered ? hn::Set(d16, kSliceOne) : between(cover);
-  // Colours of pixels without coverage are at most rounding errors. Products of rounding errors and
-  // weights below one half are 0.
-  if (kBehindFirst && !kCovered && AllZero(d16, covered)) return;
-  const auto excess =
-      kKnown == Known::kNothing ? hn::Max(hn::Sub(covered, light), hn::Zero(d16)) : hn::Zero(d16);
-  auto r = between(at), g = between(at + plane), b = between(at + 2 * plane);
-  AddSlice<kKnown>(weight, {r, g, b, covered}, excess, light, sums);
-}
-
-// Adds the light in `rows` rows of a vector to the sums of these rows.
-HWY_INLINE void AddLight(const ViewSums& view, size_t rows, uint32_t* HWY_RESTRICT sums) {
-  AddSums(view.r, rows, sums);
-  AddSums(view.g, rows, sums + kSliceLanes);
-  AddSums(view.b, rows, sums + 2 * kSliceLanes);
-  AddSums(view.covered, rows, sums + 3 * kSliceLanes);
-}
-
-// A visible slice and a pointer to its offset in the first view.
-struct SeenSlice {
-  StripSlice slice;
-  const SliceOffset* offsets;
-};
-
-// Composites two vectors of rows of a strip.
-HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, size_t row, size_t n,
-                              size_t rows, uint32_t* HWY_RESTRICT sums) {
-  const StripTag d16;
-  const size_t step = RowsOf(d16), second = step * kSliceLanes;
-  const int vector_rows = static_cast<int>(step);
-  const auto zero = hn::Zero(d16), one = hn::Set(d16, kSliceOne);
-  auto r0 = zero, g0 = zero, b0 = zero, a0 = zero, r1 = zero, g1 = zero, b1 = zero, a1 = zero;
-  const SeenSlice* const end = seen + views.shown_count;
-  for (size_t view = 0, first = 0; view < views.views; ++view, first += views.count) {
-    const auto weight = hn::Set(d16, views.weights[view]);
-    auto light0 = one, light1 = one;
-    bool taken = false;
-    for (const SeenSlice* k = seen; k != end; ++k) {
-      const StripSlice& slice = k->slice;
-      const SliceOffset& offset = k->offsets[first];
-      const ptrdiff_t moved = static_cast<ptrdiff_t>(row) + offset.whole;
-      const int8_t* near = slice.near + moved;
-      const int read_by_both = 2 * vector_rows + offset.taps - 1;
-      if (near[0] >= (kBehindFirst ? int{kNothingNear} : read_by_both)) continue;
-      const int16_t* at = slice.samples + moved * ptrdiff_t{kSliceLanes} + n;
-      const auto take = [&](auto known) HWY_ATTR {
-        CallWithTaps(offset.taps, [&](auto taps) HWY_ATTR {
-          constexpr int kTaps = decltype(taps)::value;
-          constexpr Known kKnown = decltype(known)::value;
-          const int read = vector_rows + kTaps - 1;
-          if (kBehindFirst || near[0] < read) {
-            AddRows<kTaps, kKnown>(offset, slice.plane, at, weight, light0, {r0, g0, b0, a0});
-          }
-          if (kBehindFirst || near[step] < read) {
-            AddRows<kTaps, kKnown>(offset, slice.plane, at + second, weight, light1,
-                                   {r1, g1, b1, a1});
-          }
-        });
-      };
-      if (!taken && kCoveredApart && near[0] == kCoveredNear) {
-        take(std::integral_constant<Known, Known::kCovered>());
-        break;
-      }
-      if (!taken) {
-        taken = true;
-        take(std::integral_constant<Known, Known::kLit>());
-      } else {
-        take(std::integral_constant<Known, Known::kNothing>());
-      }
-      if (AllZero(d16, hn::Or(light0, light1))) break;
-    }
-  }
-  if (views.extra_bits != 0) {
-    for (SliceVec* value : {&r0, &g0, &b0, &a0, &r1, &g1, &b1, &a1}) {
-      *value = DividedSums(*value, views.extra_bits);
-    }
-  }
-  AddLight({r0, g0, b0, a0}, rows, sums + n);
-  if (rows > step) AddLight({r1, g1, b1, a1}, rows - step, sums + 4 * second + n);
-}
-
-inline void Composite(const SliceViews& views, size_t rows, uint32_t* HWY_RESTRICT sums) {
-  const StripTag d;
-  const size_t step = 2 * RowsOf(d);
-  SeenSlice seen[kMaxSeen];
-  for (size_t k = 0; k < views.shown_count; ++k) {
-    seen[k] = {views.slices[views.shown[k]], views.offsets + views.shown[k]};
-  }
-  for (size_t y = 0; y < rows; y += step, sums += 4 * step * kSliceLanes) {
-    for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d)) {
-      CompositeRows(views, seen, views.row + y, n, rows - y, sums);
-    }
-  }
+// Returns the factor of the first difference for samples with the coverage at `covered`.
+template <int kTaps, class D, class V = hn::Vec<D>>
+HWY_INLINE V FirstFactor(D d, const int16_t* HWY_RESTRICT covered, size_t next,
+                         const Factors<V>& factors) {
+  if (kTaps > 2) return factors.edge;
+  const auto alike = hn::Eq(hn::LoadU(d, covered), hn::LoadU(d, covered + next));
+  return hn::IfThenElse(alike, factors.inside, factors.edge);
 }
 
 #if HWY_TARGET == HWY_SCALAR
 
+using reference::Composite;
 using reference::FinishComposite;
+using reference::ShiftSlice;
 
 #else
+
+// Coverage of rows of both halves of a strip, from row 0 of a RowCover on.
+struct HalfCovers {
+  RowCover half[2] = {{0, 0}, {0, 0}};
+
+  // Adds the coverage of the columns [n, n + lanes) in the row of `bit`.
+  HWY_INLINE void Add(LanesVec shown, size_t n, uint64_t bit) {
+    const LanesTag d;
+    const auto one = hn::Eq(shown, hn::Set(d, kSliceOne));
+    if (hn::Lanes(d) == kHalfStrip) {
+      RowCover& cover = half[n / kHalfStrip];
+      cover.some |= bit;
+      if (hn::AllTrue(d, one)) cover.all |= bit;
+      return;
+    }
+    const uint32_t none = BitsOf(d, hn::Eq(shown, hn::Zero(d))), all = BitsOf(d, one);
+    constexpr uint32_t kHalf = (1u << kHalfStrip) - 1;
+    for (size_t k = 0; k < 2; ++k) {
+      const size_t shift = k * kHalfStrip;
+      half[k].some |= (none >> shift & kHalf) != kHalf ? bit : 0;
+      half[k].all |= (all >> shift & kHalf) == kHalf ? bit : 0;
+    }
+  }
+  HWY_INLINE void AddWhole(uint64_t bit) {
+    for (RowCover& cover : half) {
+      cover.some |= bit;
+      cover.all |= bit;
+    }
+  }
+};
+
+// Shifts a row of a slice that is not empty.
+template <int kTaps>
+HWY_INLINE void ShiftRow(const int16_t* HWY_RESTRICT from, size_t plane, bool is_whole,
+                         const Factors<LanesVec>& factors, uint64_t bit, int16_t* HWY_RESTRICT row,
+                         HalfCovers& covers) {
+  const LanesTag d;
+  const auto zero = hn::Zero(d);
+  if (is_whole) covers.AddWhole(bit);
+  for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d)) {
+    const int16_t* HWY_RESTRICT covered = from + 3 * plane + n;
+    auto first = kTaps > 2 ? factors.edge : factors.inside;
+    auto shown = hn::Set(d, kSliceOne);
+    if (!is_whole) {
+      first = FirstFactor<kTaps>(d, covered, 1, factors);
+      shown = Between<kTaps>(d, covered, 1, first, factors);
+      if (AllZero(d, shown)) {
+        for (size_t c = 0; c < 4; ++c) hn::StoreU(zero, d, row + c * kSliceLanes + n);
+        continue;
+      }
+      covers.Add(shown, n, bit);
+    }
+    for (size_t c = 0; c < 3; ++c) {
+      const auto value = Between<kTaps>(d, from + c * plane + n, 1, first, factors);
+      hn::StoreU(value, d, row + c * kSliceLanes + n);
+    }
+    hn::StoreU(shown, d, row + 3 * kSliceLanes + n);
+  }
+}
+
+template <int kTaps>
+HWY_INLINE void ShiftRows(const SliceRows& in, const SliceOffset& offset, size_t first, size_t end,
+                          const StripSlice& out) {
+  const LanesTag d;
+  const auto inside = hn::Set(d, offset.inside), edge = hn::Set(d, offset.edge);
+  const auto third = hn::Set(d, offset.third), fourth = hn::Set(d, offset.fourth);
+  const Factors<LanesVec> factors = {inside, edge, third, fourth};
+  const int16_t* HWY_RESTRICT from = in.samples + offset.whole;
+  int16_t* HWY_RESTRICT row = out.samples + first * kStripRow;
+  const SliceCover* HWY_RESTRICT cover = in.cover;
+  for (size_t y = first, next; y < end; y = next) {
+    next = HWY_MIN(y / 64 * 64 + 64, end);
+    HalfCovers covers;
+    RowCover* const to = out.cover + y / 64 * 2;
+    for (uint64_t bit = uint64_t{1} << y % 64; y < next; ++y, bit <<= 1) {
+      if ((cover->some & in.groups) == 0) {
+        for (size_t n = 0; n < kStripRow; n += hn::Lanes(d)) hn::StoreU(hn::Zero(d), d, row + n);
+      } else {
+        const bool is_whole = in.keeps_whole && (cover->all & in.groups) == in.groups;
+        ShiftRow<kTaps>(from, in.plane, is_whole, factors, bit, row, covers);
+      }
+      from += 4 * in.plane;
+      row += kStripRow;
+      ++cover;
+    }
+    to[0] = covers.half[0];
+    to[1] = covers.half[1];
+  }
+}
+
+inline void ShiftSlice(const SliceRows& in, const SliceOffset& offset, size_t first, size_t end,
+                       const StripSlice& out) {
+  for (size_t word = 0; word < out.covers; ++word) out.cover[word] = {0, 0};
+  CallWithTaps(offset.taps, [&](auto taps) HWY_ATTR {
+    ShiftRows<decltype(taps)::value>(in, offset, first, end, out);
+  });
+}
+
+// The planes of a row are contiguous, so that the widest vectors hold two of them.
+#undef STARFOCUS_TWO_PLANES
+#if HWY_ARCH_X86 && HWY_MAX_BYTES >= 64
+#define STARFOCUS_TWO_PLANES 1
+using PlanesTag = hn::CappedTag<int16_t, 2 * kSliceLanes>;
+#else
+#define STARFOCUS_TWO_PLANES 0
+using PlanesTag = LanesTag;
+#endif
+using PlanesVec = hn::Vec<PlanesTag>;
+constexpr size_t kPlanesAtOnce = 1 + STARFOCUS_TWO_PLANES;
+
+// Repeats the values of a row's pixels for each plane of a vector.
+HWY_INLINE PlanesVec ForPlanes(LanesVec pixels) {
+#if STARFOCUS_TWO_PLANES
+  return hn::Combine(PlanesTag(), pixels, pixels);
+#else
+  return pixels;
+#endif
+}
+
+// Returns light / covered for lanes in which the quotient is less than one, computed like
+// SliceShare in the reference.
+HWY_INLINE LanesVec ShareOfLight(LanesVec covered, LanesVec light, LanesVec excess) {
+  const LanesTag d;
+  const auto one = hn::Set(d, kSliceOne);
+  const auto open = hn::Sub(one, covered);
+  const auto first = hn::MulFixedPoint15(excess, open);
+  const auto second = hn::MulFixedPoint15(first, open);
+  const auto taken = hn::SaturatedAdd(excess, hn::Add(first, second));
+  const auto twice = hn::SaturatedAdd(light, light);
+  return hn::Min(hn::Sub(one, taken), hn::SaturatedAdd(twice, twice));
+}
+
+// Number of samples of a row of views: kStripRow sums of the views, as unsigned numbers, and the
+// remaining light of the current view.
+constexpr size_t kViewRow = kStripRow + kSliceLanes;
+
+// Adds `count` rows of a slice to rows of a view. `at` and `to` are the first samples. If kFront is
+// true, no slice in front covers any pixel of the rows. If kCovered is true, the slice covers all
+// pixels completely, so that it hides all slices behind it and its light is not stored.
+template <int kTaps, bool kFront, bool kCovered>
+HWY_INLINE void AddRows(const SliceOffset& offset, int16_t view_weight,
+                        const int16_t* HWY_RESTRICT at, size_t count, int16_t* HWY_RESTRICT to) {
+  const LanesTag d;
+  const PlanesTag dp;
+  const auto inside = hn::Set(d, offset.inside), edge = hn::Set(d, offset.edge);
+  const auto third = hn::Set(d, offset.third), fourth = hn::Set(d, offset.fourth);
+  const auto planes_inside = hn::Set(dp, offset.inside), planes_edge = hn::Set(dp, offset.edge);
+  const auto planes_third = hn::Set(dp, offset.third), planes_fourth = hn::Set(dp, offset.fourth);
+  const Factors<LanesVec> factors = {inside, edge, third, fourth};
+  const Factors<PlanesVec> of_planes = {planes_inside, planes_edge, planes_third, planes_fourth};
+  const auto weight = hn::Set(d, view_weight), one = hn::Set(d, kSliceOne);
+  for (const int16_t* const end = at + count * kStripRow; at != end; at += kStripRow) {
+    int16_t* HWY_RESTRICT light = to + kStripRow;
+    auto first = kTaps > 2 ? edge : inside;
+    auto part = weight;
+    if (!kCovered) {
+      const int16_t* HWY_RESTRICT cover = at + 3 * kSliceLanes;
+      first = FirstFactor<kTaps>(d, cover, kStripRow, factors);
+      const auto covered = Between<kTaps>(d, cover, kStripRow, first, factors);
+      if (kFront) {
+        hn::StoreU(hn::Sub(one, covered), d, light);
+      } else {
+        const hn::RebindToUnsigned<LanesTag> du;
+        const auto left = hn::LoadU(d, light);
+        const auto less = [&](LanesVec a, LanesVec b) HWY_ATTR {
+          return hn::BitCast(d, hn::SaturatedSub(hn::BitCast(du, a), hn::BitCast(du, b)));
+        };
+        const auto share = ShareOfLight(covered, left, less(covered, left));
+        part = hn::IfThenElse(hn::Gt(covered, left), hn::MulFixedPoint15(weight, share), weight);
+        hn::StoreU(less(left, covered), d, light);
+      }
+    } else if (!kFront) {
+      part = hn::MulFixedPoint15(weight, hn::LoadU(d, light));
+    }
+    const auto planes_first = ForPlanes(first), planes_part = ForPlanes(part);
+    constexpr size_t kPlanes = kCovered && kPlanesAtOnce == 1 ? 3 : 4;
+    for (size_t c = 0; c < kPlanes; c += kPlanesAtOnce) {
+      const size_t n = c * kSliceLanes;
+      const auto value = Between<kTaps>(dp, at + n, kStripRow, planes_first, of_planes);
+      const auto sum = hn::Add(hn::LoadU(dp, to + n), hn::MulFixedPoint15(value, planes_part));
+      hn::StoreU(sum, dp, to + n);
+    }
+    if (kPlanes == 3) {
+      int16_t* HWY_RESTRICT covered = to + 3 * kSliceLanes;
+      hn::StoreU(hn::Add(hn::LoadU(d, covered), part), d, covered);
+    }
+    to += kViewRow;
+  }
+}
+
+// Calls act(first, count) for each sequence of bits that are set.
+template <class Act>
+HWY_INLINE void ForRuns(uint32_t bits, const Act& act) {
+  while (bits != 0) {
+    const uint32_t first = static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+    const uint32_t from = ~(bits >> first);
+    const uint32_t count =
+        from == 0 ? 32 : static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(from));
+    act(first, count);
+    bits &= bits + (uint32_t{1} << first);
+  }
+}
+
+// Returns the coverage of the kMostRows rows from `row` on, for the columns [n, n + lanes).
+HWY_INLINE RowCover CoverFrom(const RowCover* cover, size_t row, size_t n, size_t lanes) {
+  const RowCover* word = cover + row / 64 * 2 + n / kHalfStrip;
+  const size_t shift = row % 64;
+  const auto from = [&](uint64_t low, uint64_t high) {
+    return low >> shift | high << 1 << (63 - shift);
+  };
+  RowCover found = {from(word[0].some, word[2].some), from(word[0].all, word[2].all)};
+  if (lanes > kHalfStrip) {
+    found.some |= from(word[1].some, word[3].some);
+    found.all &= from(word[1].all, word[3].all);
+  }
+  return found;
+}
+
+// Adds a slice to a view, for the columns [n, n + lanes). `open` has the rows that no slice in
+// front hides completely, and `fresh` the rows in which no slice in front covers a pixel.
+template <int kTaps>
+HWY_INLINE void AddSlice(const SeenSlice& seen, const SliceOffset& offset, int16_t weight, size_t n,
+                         int16_t* HWY_RESTRICT to, uint32_t& open, uint32_t& fresh) {
+  const size_t row = seen.row + static_cast<size_t>(ptrdiff_t{offset.whole});
+  const RowCover cover = CoverFrom(seen.slice.cover, row, n, hn::Lanes(LanesTag()));
+  uint64_t some = cover.some | cover.some >> 1, all = cover.all & cover.all >> 1;
+  if (kTaps > 2) {
+    some |= cover.some >> 2;
+    all &= cover.all >> 2;
+  }
+  if (kTaps > 3) {
+    some |= cover.some >> 3;
+    all &= cover.all >> 3;
+  }
+  const uint32_t shown = static_cast<uint32_t>(some) & open & seen.rows;
+  if (shown == 0) return;
+  const uint32_t hides = shown & static_cast<uint32_t>(all);
+  const int16_t* const at = seen.slice.samples + row * kStripRow + n;
+  const auto add = [&](uint32_t rows, auto front, auto covered) HWY_ATTR {
+    ForRuns(rows, [&](size_t first, size_t count) HWY_ATTR {
+      AddRows<kTaps, decltype(front)::value, decltype(covered)::value>(
+          offset, weight, at + first * kStripRow, count, to + first * kViewRow);
+    });
+  };
+  const std::true_type yes;
+  const std::false_type no;
+  add(hides & fresh, yes, yes);
+  add(shown & ~hides & fresh, yes, no);
+  add(hides & ~fresh, no, yes);
+  add(shown & ~hides & ~fresh, no, no);
+  open &= ~hides;
+  fresh &= ~shown;
+}
+
+// Adds the sums of a row of views, divided by 2^extra_bits, to 32-bit sums.
+HWY_INLINE void AddSums(const int16_t* HWY_RESTRICT from, int extra_bits,
+                        uint32_t* HWY_RESTRICT sums) {
+  const hn::CappedTag<uint32_t, kSliceLanes> d32;
+  const hn::Rebind<uint16_t, decltype(d32)> d16;
+  const auto half = hn::Set(d32, uint32_t{1} << extra_bits >> 1);
+  const uint16_t* HWY_RESTRICT more = reinterpret_cast<const uint16_t*>(from);
+  for (size_t n = 0; n < kStripRow; n += hn::Lanes(d32)) {
+    auto value = hn::PromoteTo(d32, hn::LoadU(d16, more + n));
+    if (extra_bits != 0) value = hn::ShiftRightSame(hn::Add(value, half), extra_bits);
+    hn::StoreU(hn::Add(hn::LoadU(d32, sums + n), value), d32, sums + n);
+  }
+}
+
+inline void Composite(const SliceViews& views, size_t rows, uint32_t* HWY_RESTRICT sums) {
+  const LanesTag d;
+  const size_t lanes = hn::Lanes(d);
+  const uint32_t all_rows = ~uint32_t{0} >> (kMostRows - rows);
+  HWY_ALIGN int16_t view_rows[kMostRows * kViewRow];
+  for (size_t n = 0; n < rows * kViewRow; n += lanes) hn::Store(hn::Zero(d), d, view_rows + n);
+  const SeenSlice* const end = views.seen + views.seen_count;
+  for (size_t n = 0; n < kSliceLanes; n += lanes) {
+    const SliceOffset* offsets = views.offsets;
+    for (size_t view = 0; view < views.views; ++view, offsets += views.count) {
+      uint32_t open = all_rows, fresh = all_rows;
+      for (const SeenSlice* seen = views.seen; seen != end && open != 0; ++seen) {
+        const SliceOffset& offset = offsets[seen->index];
+        CallWithTaps(offset.taps, [&](auto taps) HWY_ATTR {
+          AddSlice<decltype(taps)::value>(*seen, offset, views.weights[view], n, view_rows + n,
+                                          open, fresh);
+        });
+      }
+    }
+  }
+  for (size_t y = 0; y < rows; ++y) {
+    AddSums(view_rows + y * kViewRow, views.extra_bits, sums + y * kStripRow);
+  }
+}
 
 using CompositeTag = hn::CappedTag<uint32_t, kSliceLanes>;
 using CompositeVec = hn::Vec<CompositeTag>;

@@ -16,19 +16,29 @@
 namespace starfocus::simd {
 
 // Number of rows of a strip that Composite may read after the last row that it composites.
-inline constexpr size_t kRowsAhead = 6;
+inline constexpr size_t kRowsAhead = 3;
 
-// Special values of a row's mark. The mark is the number of consecutive rows, from this row on, in
-// which the slice covers no pixel, limited to kNothingNear. The mark is kCoveredNear if the slice
-// fully covers all pixels of this row and of the next kRowsAhead rows.
-inline constexpr int8_t kNothingNear = kRowsAhead + 1;
-inline constexpr int8_t kCoveredNear = -1;
+// Number of samples of a row of a strip: kSliceLanes samples of R, of G, of B and of the coverage.
+inline constexpr size_t kStripRow = 4 * kSliceLanes;
 
-// A slice in a strip. The four planes are `plane` samples apart. A row has kSliceLanes samples.
+// A half of a strip's columns, which is a vector of the narrowest targets.
+inline constexpr size_t kHalfStrip = kSliceLanes / 2;
+
+// Coverage of 64 rows of a half of a strip. Bit r of `some` is set if the slice covers any pixel of
+// row r, and bit r of `all` if it completely covers all pixels.
+struct RowCover {
+  uint64_t some, all;
+};
+
+// Returns the number of RowCover of a slice of `rows` rows in a strip. Element 2 w + h has rows 64
+// w to 64 w + 63 of half h. Kernels read the bits of 64 rows after any row.
+constexpr size_t RowCovers(size_t rows) { return 2 * (rows / 64 + 2); }
+
+// A slice in a strip.
 struct StripSlice {
-  int16_t* samples;  // First row of the slice that the centre view shows.
-  int8_t* near;      // Marks of the slice's rows; element 0 is the mark of the row at `samples`.
-  size_t plane;
+  int16_t* samples;  // First row, kStripRow samples per row.
+  RowCover* cover;   // `covers` elements.
+  size_t covers;     // RowCovers of the slice's rows.
 };
 
 // Position of a slice in a view, along rows or columns: a shift by whole pixels, and factors of the
@@ -49,8 +59,29 @@ struct SliceOffset {
   }
 };
 
+// Rows of a slice that ShiftSlice shifts. Each row has four planes, `plane` samples apart.
+struct SliceRows {
+  const int16_t* samples;  // First row, at the first column of the strip.
+  size_t plane;
+  const SliceCover* cover;  // Coverage of each row.
+  uint64_t groups;          // Groups of a row that any view shows in the strip, as in SliceCover.
+  // True if a row is fully covered where SliceCover says so. Filters leave less than that.
+  bool keeps_whole;
+};
+
 // Largest number of slices that a view can show.
 inline constexpr size_t kMaxSeen = 32;
+
+// Largest number of rows that Composite composites in one call.
+inline constexpr size_t kMostRows = 32;
+
+// A slice that views show in the rows that are composited.
+struct SeenSlice {
+  StripSlice slice;
+  size_t row;     // Row of the strip that an unmoved view shows in the first row.
+  size_t index;   // Index of the slice's offsets.
+  uint32_t rows;  // Bit y is set if the slice may be visible in row y.
+};
 
 // The views that Composite adds. In each view, the slices are shifted along the columns of the
 // strip.
@@ -58,11 +89,9 @@ struct SliceViews {
   const int16_t* weights;      // Weight of each view, in [0, 2^14); the sum is at most 58000.
   const SliceOffset* offsets;  // offsets[view * count + k]: position of slice k in a view.
   size_t views;
-  const StripSlice* slices;
-  size_t count;          // Number of slices.
-  const uint8_t* shown;  // Indices of the visible slices, from the nearest to the farthest.
-  size_t shown_count;    // Number of visible slices, at most kMaxSeen.
-  size_t row;            // First row that is composited.
+  size_t count;           // Number of slices.
+  const SeenSlice* seen;  // The visible slices, from the nearest to the farthest.
+  size_t seen_count;      // Number of visible slices, at most kMaxSeen.
   // extra_bits is the number of additional fractional bits of the weights, [0, 4]; the sums are
   // divided by 2^extra_bits.
   int extra_bits;
@@ -97,72 +126,81 @@ inline int16_t SliceShare(int16_t covered, int16_t light) {
   return static_cast<int16_t>(share < 4 * light ? share : Saturated(4 * light));
 }
 
-// Shifts rows of a slice along the row by `offset`, and stores the result in a strip.
-// The four planes of each row of `in` are `in_plane` samples apart. The planes of the strip are
-// `plane` samples apart. Sample out[n] is interpolated between in[n + whole] and the following
-// samples. Each product is rounded half up.
-//
-// near[row] is the mark of a row; kRowsAhead more marks precede near[0]. Before the call, all marks
-// must be at least kNothingNear. The kernel sets the marks of rows in which the slice covers a
-// pixel, and the marks of the kRowsAhead rows before such a row. The marks of all other rows are
-// not changed.
-STARFOCUS_REFERENCE void ShiftSlice(const int16_t* in, size_t in_plane, const SliceOffset& offset,
-                                    size_t rows, size_t plane, int16_t* out, int8_t* near) {
-  // Number of consecutive fully covered rows up to and including the current row.
-  size_t all_covered = 0;
-  for (size_t row = 0; row < rows; ++row) {
-    const int16_t* first = in + offset.whole + 4 * row * in_plane;
-    const int16_t* covered = first + 3 * in_plane;
-    for (size_t c = 0; c < 4; ++c) {
-      const int16_t* from = first + c * in_plane;
-      int16_t* to = out + c * plane + row * kSliceLanes;
-      for (size_t n = 0; n < kSliceLanes; ++n) to[n] = Between15(from + n, covered + n, 1, offset);
+// Shifts rows of a slice along the row by `offset`, and stores the result in the rows [first, end)
+// of a strip. Sample n of a row is interpolated between sample n + whole and the following samples.
+// Each product is rounded half up. Pixels without coverage in a whole half of a row become zero.
+// Writes the coverage of all rows of `out`; other rows than [first, end) have none.
+STARFOCUS_REFERENCE void ShiftSlice(const SliceRows& in, const SliceOffset& offset, size_t first,
+                                    size_t end, const StripSlice& out) {
+  for (size_t n = 0; n < out.covers; ++n) out.cover[n] = {0, 0};
+  for (size_t y = first; y < end; ++y) {
+    int16_t* const row = out.samples + y * kStripRow;
+    std::fill_n(row, kStripRow, int16_t{0});
+    if ((in.cover[y - first].some & in.groups) == 0) continue;
+    const int16_t* from = in.samples + offset.whole + 4 * (y - first) * in.plane;
+    for (size_t half = 0; half < 2; ++half) {
+      bool some = false, all = true;
+      const auto shift = [&](size_t c) {
+        for (size_t n = half * kHalfStrip; n < (half + 1) * kHalfStrip; ++n) {
+          const int16_t value =
+              Between15(from + c * in.plane + n, from + 3 * in.plane + n, 1, offset);
+          row[c * kSliceLanes + n] = value;
+          some = some || value != 0;
+          all = all && value == kSliceOne;
+        }
+      };
+      shift(3);
+      RowCover& cover = out.cover[y / 64 * 2 + half];
+      cover.some |= uint64_t{some} << y % 64;
+      cover.all |= uint64_t{all} << y % 64;
+      for (size_t c = 0; c < 3 && some; ++c) shift(c);
     }
-    const int16_t *shown = out + 3 * plane + row * kSliceLanes, *end = shown + kSliceLanes;
-    int8_t* last = near + row;
-    if (std::any_of(shown, end, [](int16_t sample) { return sample != 0; })) {
-      for (int k = 0; k <= int{kRowsAhead}; ++k) last[-k] = std::min(last[-k], int8_t(k));
-    }
-    const bool all = std::all_of(shown, end, [](int16_t sample) { return sample == kSliceOne; });
-    all_covered = all ? all_covered + 1 : 0;
-    if (all_covered > kRowsAhead) last[-int{kRowsAhead}] = kCoveredNear;
   }
 }
 
-// Composites the views of a strip and adds the results to sums[(4 row + c) kSliceLanes + n], where
-// c is the plane. A slice contributes its premultiplied colours and reduces the remaining light by
-// its coverage.
+// Composites the views of `rows` <= kMostRows rows of a strip and adds the results to
+// sums[(4 row + c) kSliceLanes + n], where c is the plane. A slice contributes its premultiplied
+// colours and reduces the remaining light by its coverage.
 //
 // If the coverage of a slice exceeds the remaining light, the contribution of the slice is reduced
 // in proportion. The contribution may be too large by up to a ninth of the view's weight. Slices
 // are thus treated as if each slice covered a different part of a pixel.
 //
-// Rows are interpolated as in ShiftSlice. Products (15 fractional bits) are rounded half up. The
-// total of all views is divided by 2^extra_bits and rounded half up. Sums must not exceed 2^32 - 1.
+// Rows are interpolated as in ShiftSlice. Rows that neither cover a pixel nor are followed by such
+// a row among the interpolated rows are not read. In a slice, no colour may exceed the coverage by
+// more than 1, so that pixels without coverage contribute nothing. Products (15 fractional bits)
+// are rounded half up. The total of all views is divided by 2^extra_bits and rounded half up. Sums
+// must not exceed 2^32 - 1.
 STARFOCUS_REFERENCE void Composite(const SliceViews& views, size_t rows, uint32_t* sums) {
-  for (size_t y = 0; y < rows; ++y, sums += 4 * kSliceLanes) {
-    const size_t row = views.row + y;
+  for (size_t y = 0; y < rows; ++y, sums += kStripRow) {
     for (size_t n = 0; n < kSliceLanes; ++n) {
       uint32_t given[4] = {0, 0, 0, 0};
       for (size_t view = 0; view < views.views; ++view) {
         const int16_t weight = views.weights[view];
         int16_t light = kSliceOne;
-        for (size_t k = 0; k < views.shown_count; ++k) {
-          const StripSlice& slice = views.slices[views.shown[k]];
-          const SliceOffset& offset = views.offsets[view * views.count + views.shown[k]];
-          const ptrdiff_t moved = static_cast<ptrdiff_t>(row) + offset.whole;
-          if (slice.near[moved] == kNothingNear) continue;
-          const int16_t* from = slice.samples + moved * ptrdiff_t{kSliceLanes} + n;
+        for (size_t k = 0; k < views.seen_count; ++k) {
+          const SeenSlice& seen = views.seen[k];
+          const SliceOffset& offset = views.offsets[view * views.count + seen.index];
+          const size_t moved = seen.row + y + static_cast<size_t>(ptrdiff_t{offset.whole});
+          const auto shows = [&](size_t row) {
+            const RowCover* cover = seen.slice.cover + row / 64 * 2;
+            return ((cover[0].some | cover[1].some) >> row % 64 & 1) != 0;
+          };
+          bool shown = false;
+          for (size_t tap = 0; tap < static_cast<size_t>(offset.taps); ++tap) {
+            shown = shown || shows(moved + tap);
+          }
+          if (!shown || (seen.rows >> y & 1) == 0) continue;
+          const int16_t* from = seen.slice.samples + moved * kStripRow + n;
           const auto value = [&](size_t c) {
-            return Between15(from + c * slice.plane, from + 3 * slice.plane, kSliceLanes, offset);
+            return Between15(from + c * kSliceLanes, from + 3 * kSliceLanes, kStripRow, offset);
           };
           const int16_t covered = value(3);
-          for (size_t c = 0; c < 4; ++c) {
-            const int16_t lit =
-                covered > light ? Product15(value(c), SliceShare(covered, light)) : value(c);
-            given[c] += static_cast<uint32_t>(Product15(weight, lit));
-          }
-          light = static_cast<int16_t>(covered > light ? 0 : light - covered);
+          const bool over = covered > light;
+          const int16_t part = over ? Product15(weight, SliceShare(covered, light)) : weight;
+          for (size_t c = 0; c < 4; ++c)
+            given[c] += static_cast<uint32_t>(Product15(value(c), part));
+          light = static_cast<int16_t>(over ? 0 : light - covered);
         }
       }
       const uint32_t half = uint32_t{1} << views.extra_bits >> 1;

@@ -156,10 +156,16 @@ constexpr size_t SliceBytes(size_t width, size_t height, size_t reach) {
          CoverBytes(height + 2 * reach);
 }
 
-// Returns the size in bytes of a slice in a strip, including its marks, and the rows that are read
-// after the last row.
+// Returns the number of rows of a slice in a strip, including rows that are read after the last
+// one.
+constexpr size_t StripRows(size_t height, size_t reach) {
+  return height + 2 * reach + simd::kRowsAhead;
+}
+
+// Returns the size in bytes of a slice in a strip, including its coverage.
 constexpr size_t StripBytes(size_t height, size_t reach) {
-  return (height + 2 * reach + simd::kRowsAhead) * (4 * simd::kSliceLanes * sizeof(int16_t) + 1);
+  const size_t rows = StripRows(height, reach);
+  return rows * simd::kStripRow * sizeof(int16_t) + simd::RowCovers(rows) * sizeof(simd::RowCover);
 }
 
 // Finds the position of each slice in each view. `offsets` has `count` elements, one per slice, for

@@ -98,6 +98,7 @@ void ScaleWeights(SliceStack* stack) {
 namespace {
 
 constexpr int32_t kRowsAhead = static_cast<int32_t>(simd::kRowsAhead);
+constexpr int32_t kMostRows = static_cast<int32_t>(simd::kMostRows);
 
 class Strip {
  public:
@@ -112,7 +113,7 @@ class Strip {
         sums_(sums) {}
 
   // Composites one column of views at a time.
-  void Composite(int16_t* memory, CancelToken* cancel) {
+  void Composite(uint8_t* memory, CancelToken* cancel) {
     FindRows();
     PlaceSlices(memory);
     for (int32_t i = -stack_.grid->n(); i <= stack_.grid->n(); ++i) {
@@ -132,7 +133,7 @@ class Strip {
         if (rows.last == 0) rows.first = pair->y;
         rows.last = pair->y + pair->rows;
       }
-      const size_t sums = kPixelSums * static_cast<size_t>(pair->rows * simd::kStripColumns);
+      const size_t sums = simd::kStripRow * static_cast<size_t>(pair->rows);
       samples_ += static_cast<int64_t>(sums) * pair->count;
       std::memset(SumsOfRow(sums_, pair->y), 0, sums * sizeof(*sums_));
     }
@@ -141,53 +142,36 @@ class Strip {
     }
   }
 
-  // Allocates memory of the strip for the slices that are visible in the cell pairs. The marks
-  // `near` of all slices are stored after the samples of all slices, and kRowsAhead further marks
-  // precede the mark of the first row.
-  void PlaceSlices(int16_t* samples) {
-    size_t rows = 0;
-    for (int32_t n = 0; n < seen_; ++n) rows += RowsOf(planes_[seen_slices_[n]]);
-    int8_t* near =
-        reinterpret_cast<int8_t*>(samples + 4 * rows * simd::kSliceLanes) + simd::kRowsAhead;
+  // Allocates memory of the strip for the slices that are visible in the cell pairs.
+  void PlaceSlices(uint8_t* memory) {
     for (int32_t n = 0; n < seen_; ++n) {
       const int32_t k = seen_slices_[n];
-      const SlicePlane& placed = planes_[k];
-      const size_t plane = RowsOf(placed) * simd::kSliceLanes;
-      shown_[k] = {samples + placed.reach * simd::kStripColumns, near + placed.reach, plane};
+      const size_t rows = static_cast<size_t>(planes_[k].rows) + simd::kRowsAhead;
+      auto* const cover = reinterpret_cast<simd::RowCover*>(memory);
+      const size_t covers = simd::RowCovers(rows);
+      auto* const samples = reinterpret_cast<int16_t*>(cover + covers);
+      shown_[k] = {samples, cover, covers};
       FindFilled(k);
-      samples += 4 * plane;
-      near += RowsOf(placed);
+      memory = reinterpret_cast<uint8_t*>(samples + rows * simd::kStripRow);
     }
   }
 
-  static size_t RowsOf(const SlicePlane& placed) {
-    return static_cast<size_t>(placed.rows) + simd::kRowsAhead;
-  }
-
-  // Finds the rows of slice k that are not empty in the strip. Clears the empty rows, which
-  // MoveSlice does not write, and kRowsAhead rows after the last row, because the kernel reads
-  // them.
+  // Finds the rows of slice k that are not empty in the strip. Clears the kRowsAhead rows before
+  // and after them, because the kernel reads these rows and MoveSlice does not write them.
   void FindFilled(int32_t k) {
     const SlicePlane& placed = planes_[k];
     const uint64_t strips = StripsOf(placed, first_->x);
-    const int32_t top = rows_[k].first - placed.reach, last = rows_[k].last + placed.reach;
-    const auto empty = [&](int32_t row) {
-      return (placed.cover[row + placed.reach].some & strips) == 0;
-    };
-    int32_t first = top, end = last;
+    int32_t first = rows_[k].first, end = rows_[k].last + 2 * placed.reach;
+    const auto empty = [&](int32_t row) { return (placed.cover[row].some & strips) == 0; };
     while (first < end && empty(first)) ++first;
     while (end > first && empty(end - 1)) --end;
     filled_[k] = {first, end};
     const auto clear = [&](int32_t from, int32_t to) {
-      const auto rows = static_cast<size_t>(to - from);
-      std::memset(shown_[k].near + from, simd::kNothingNear, rows);
-      int16_t* row = shown_[k].samples + from * simd::kStripColumns;
-      for (size_t c = 0; c < 4; ++c, row += shown_[k].plane) {
-        std::memset(row, 0, rows * simd::kSliceLanes * sizeof(*row));
-      }
+      std::memset(shown_[k].samples + static_cast<size_t>(from) * simd::kStripRow, 0,
+                  static_cast<size_t>(to - from) * simd::kStripRow * sizeof(int16_t));
     };
-    clear(top, first);
-    clear(end, last + kRowsAhead);
+    clear(Max(first - kRowsAhead, 0), first);
+    clear(end, end + kRowsAhead);
   }
 
   // Adds all views (i, j) of column i.
@@ -201,21 +185,19 @@ class Strip {
   }
 
   // Shifts slice k for column i of views, and writes the rows that views (i, -last) to (i, last)
-  // show to the strip, except for empty rows.
+  // show to the strip, except for empty rows above and below.
   void MoveSlice(int32_t k, int32_t i, int32_t last) {
     const SlicePlane& placed = planes_[k];
     const int32_t a = stack_.Offset(k, -last).whole, b = stack_.Offset(k, last).whole;
-    const int32_t first = Max(rows_[k].first + Min(a, b), filled_[k].first);
-    const int32_t end = Min(rows_[k].last + Max(a, b) + kRowsAhead, filled_[k].last);
-    if (first >= end) return;
-    const auto rows = static_cast<size_t>(end - first);
-    int8_t* near = shown_[k].near + first;
-    // Resets the marks of rows, which still hold the values of the previous column of views.
-    std::memset(near - kRowsAhead, simd::kNothingNear, rows + simd::kRowsAhead);
-    const int16_t* from =
-        placed.samples + static_cast<size_t>(first + placed.reach) * 4 * placed.plane;
-    kernels_.ShiftSlice(from + first_->x + placed.reach, placed.plane, stack_.Offset(k, i), rows,
-                        shown_[k].plane, shown_[k].samples + first * simd::kStripColumns, near);
+    const int32_t top = placed.reach + Min(a, b), bottom = placed.reach + Max(a, b) + kRowsAhead;
+    const int32_t first = Max(rows_[k].first + top, filled_[k].first);
+    const int32_t end = Min(rows_[k].last + bottom, filled_[k].last);
+    const auto from = static_cast<size_t>(first);
+    const simd::SliceRows rows = {
+        placed.samples + from * 4 * placed.plane + first_->x + placed.reach, placed.plane,
+        placed.cover + first, StripsOf(placed, first_->x), placed.subaperture <= kBoxSubaperture};
+    kernels_.ShiftSlice(rows, stack_.Offset(k, i), from, static_cast<size_t>(Max(first, end)),
+                        shown_[k]);
   }
 
   // Adds the views (i, first) to (i, j) for the largest j <= most for which all weights have the
@@ -252,20 +234,43 @@ class Strip {
     return end;
   }
 
-  // Adds the views [rows.first, rows.last) of a column with the weights `weights_`.
+  // Adds the views [rows.first, rows.last) of a column with the weights `weights_`, to the rows of
+  // at most kMostRows / kLeastRows cell pairs at a time.
   void AddViews(const Range& rows, int extra_bits) {
-    for (const CellPair* pair = first_; pair < end_; ++pair) {
+    for (const CellPair *pair = first_, *next; pair < end_; pair = next) {
+      next = pair + 1;
+      while (next < end_ && next->y + next->rows - pair->y <= kMostRows) ++next;
+      simd::SeenSlice seen[kMaxSlices];
+      const size_t count = FindSeen(pair, next, seen);
       const simd::SliceViews views = {weights_,
                                       &stack_.Offset(0, rows.first),
                                       static_cast<size_t>(rows.last - rows.first),
-                                      shown_,
                                       static_cast<size_t>(stack_.count),
-                                      pair->shown,
-                                      static_cast<size_t>(pair->count),
-                                      static_cast<size_t>(pair->y),
+                                      seen,
+                                      count,
                                       extra_bits};
-      kernels_.Composite(views, static_cast<size_t>(pair->rows), SumsOfRow(sums_, pair->y));
+      kernels_.Composite(views, static_cast<size_t>(next[-1].y + next[-1].rows - pair->y),
+                         SumsOfRow(sums_, pair->y));
     }
+  }
+
+  // Finds the slices that are visible in the cell pairs [first, end), from the nearest to the
+  // farthest. Returns their number.
+  size_t FindSeen(const CellPair* first, const CellPair* end, simd::SeenSlice* seen) const {
+    uint32_t rows[kMaxSlices] = {};
+    for (const CellPair* pair = first; pair < end; ++pair) {
+      const uint32_t bits = (uint32_t{2} << (pair->rows - 1)) - 1;
+      for (int32_t n = 0; n < pair->count; ++n)
+        rows[pair->shown[n]] |= bits << (pair->y - first->y);
+    }
+    size_t count = 0;
+    for (int32_t n = 0; n < seen_; ++n) {
+      const int32_t k = seen_slices_[n];
+      if (rows[k] == 0) continue;
+      seen[count++] = {shown_[k], static_cast<size_t>(first->y + planes_[k].reach),
+                       static_cast<size_t>(k), rows[k]};
+    }
+    return count;
   }
 
   const simd::Kernels& kernels_;
@@ -288,7 +293,8 @@ class Strip {
 void CompositeStrip(const simd::Kernels& kernels, const SliceStack& stack, const SlicePlane* planes,
                     const CellPair* first, const CellPair* end, int16_t* memory, uint32_t* sums,
                     CancelToken* cancel) {
-  Strip(kernels, stack, planes, first, end, sums).Composite(memory, cancel);
+  Strip(kernels, stack, planes, first, end, sums)
+      .Composite(reinterpret_cast<uint8_t*>(memory), cancel);
 }
 
 }  // namespace starfocus

@@ -133,106 +133,102 @@ std::vector<int16_t> Planes(size_t rows, size_t plane, int share, Draw* draw) {
 }  // namespace
 
 void ShiftSlice(Draw* draw, KernelCall* call) {
-  const size_t rows = draw->Length(1, 19, kTimedSamples / 4 / kSliceLanes);
+  const size_t rows = draw->Length(1, 70, kTimedSamples / 4 / kSliceLanes);
   const size_t more = draw->Size(0, 48, 0), in_plane = kSliceLanes + 3 + more;
-  const size_t plane = kSliceLanes * (rows + draw->Size(0, 4, 0));
   std::vector<int16_t> samples = Planes(rows, in_plane, draw->Int(0, 1) == 0 ? 20 : kFull, draw);
-  const size_t empty = size_t(draw->Int(0, int(rows) - 1));
-  std::fill_n(samples.begin() + ptrdiff_t(4 * empty * in_plane), 4 * in_plane, int16_t{0});
   const size_t first = size_t(draw->Int(0, int(more)));
+  std::vector<SliceCover> cover;
+  for (size_t row = 0; row < rows; ++row) {
+    int16_t* const at = samples.data() + 4 * row * in_plane;
+    if (draw->Rarely(6)) std::fill_n(at, 4 * in_plane, int16_t{0});
+    const int16_t *shown = at + 3 * in_plane + first, *end = shown + kSliceLanes + 3;
+    const uint64_t some = uint64_t(std::any_of(shown, end, [](int16_t n) { return n != 0; }));
+    const uint64_t all =
+        uint64_t(std::all_of(shown, end, [](int16_t n) { return n == kSliceOne; }));
+    // Bits of other groups do not matter, and a group may be marked without need.
+    const bool marked = some != 0 || draw->Rarely(3);
+    cover.push_back({(marked ? uint64_t{2} : 0) | 5, (all != 0 ? uint64_t{2} : 0) | 5});
+  }
   // The memory of `in` ends with the last sample that the kernel reads.
   samples.resize(samples.size() - (more - first));
   const int16_t* in = call->Input("in", samples) + first;
   const SliceOffset offset = Offset(draw->Int(-3, 3), draw);
-  auto* out = call->OutputRows<int16_t>("out", 4, plane, rows * kSliceLanes);
-  auto* near = call->Results<int8_t>("near", kRowsAhead + rows);
-  constexpr int8_t kLeft = 9;
-  std::fill_n(near, kRowsAhead + rows, kLeft);
-  call->Calls(&Kernels::ShiftSlice, in - offset.whole, in_plane, offset, rows, plane, out,
-              near + kRowsAhead);
+  const size_t before = draw->Size(0, 70, 0);
+  const StripSlice out = {call->Results<int16_t>("samples", (before + rows) * kStripRow),
+                          call->Results<RowCover>("cover", RowCovers(before + rows)),
+                          RowCovers(before + rows)};
+  std::fill_n(out.samples, (before + rows) * kStripRow, int16_t{9});
+  const SliceRows from = {in - offset.whole, in_plane, call->Input("cover", cover), 2,
+                          !draw->Rarely(2)};
+  call->Calls(&Kernels::ShiftSlice, from, offset, before, before + rows, out);
   call->is_right = [=](uint64_t, Met* met) {
-    const int8_t *begin = near, *end = near + kRowsAhead + rows;
-    (*met)["covered"] += std::count(begin, end, kCoveredNear);
-    (*met)["left as it was"] += std::count(begin, end, kLeft);
+    for (size_t n = 0; n < RowCovers(before + rows); ++n) {
+      (*met)["some"] += out.cover[n].some != 0;
+      (*met)["all"] += out.cover[n].all != 0;
+    }
     return true;
   };
 }
 
 namespace {
 
-// Returns the marks of the rows of a strip (composite.h). `covered` holds the number of covered
-// samples of each row. If `full` is true, a row that is not empty covers all of its pixels.
-std::vector<int8_t> NearOf(const std::vector<int>& covered, bool full) {
-  std::vector<int8_t> near(covered.size() - kRowsAhead);
-  for (size_t row = 0; row < near.size(); ++row) {
-    const auto first = covered.begin() + ptrdiff_t(row), end = first + ptrdiff_t(kRowsAhead) + 1;
-    const auto shown = std::find_if(first, end, [](int count) { return count > 0; });
-    near[row] = full && std::find(first, end, 0) == end ? kCoveredNear : int8_t(shown - first);
-  }
-  return near;
-}
-
-// Makes the samples of a slice in a strip, with some empty rows. The returned pointers point to the
-// row with the index `before`.
-StripSlice MakeTile(size_t rows, size_t before, Draw* draw, KernelCall* call, Met* met) {
+// Makes the samples of a slice in a strip, with some empty rows, and their coverage.
+StripSlice MakeTile(size_t rows, Draw* draw, KernelCall* call, Met* met) {
   const bool full = draw->Int(0, 1) == 0;
-  const auto in = Planes(rows, kSliceLanes, full ? kFull : draw->Int(5, 100), draw);
-  const size_t plane = kSliceLanes * rows;
-  std::vector<int16_t> samples(4 * plane);
-  std::vector<int> covered(rows + kRowsAhead);  // number of covered samples of each row
+  std::vector<int16_t> samples = Planes(rows, kSliceLanes, full ? kFull : draw->Int(5, 100), draw);
+  std::vector<RowCover> cover(RowCovers(rows), RowCover{0, 0});
   for (size_t row = 0; row < rows; ++row) {
-    if (draw->Rarely(full ? 12 : 4)) continue;
-    for (size_t n = 0; n < 4 * kSliceLanes; ++n) {
-      const int16_t sample = in[4 * row * kSliceLanes + n];
-      samples[n / kSliceLanes * plane + row * kSliceLanes + n % kSliceLanes] = sample;
-      covered[row] += sample != 0;
+    int16_t* const at = samples.data() + row * kStripRow;
+    if (draw->Rarely(full ? 12 : 4)) std::fill_n(at, kStripRow, int16_t{0});
+    for (size_t half = 0; half < 2; ++half) {
+      const int16_t *shown = at + 3 * kSliceLanes + half * kHalfStrip, *end = shown + kHalfStrip;
+      RowCover& bits = cover[row / 64 * 2 + half];
+      const bool some = std::any_of(shown, end, [](int16_t n) { return n != 0; });
+      const bool all = std::all_of(shown, end, [](int16_t n) { return n == kSliceOne; });
+      bits.some |= uint64_t{some} << row % 64;
+      bits.all |= uint64_t{all} << row % 64;
+      (*met)["all"] += all;
+      (*met)["none"] += !some;
     }
   }
-  const std::vector<int8_t> near = NearOf(covered, full);
-  (*met)["covered"] += std::count(near.begin(), near.end(), kCoveredNear);
-  return {call->Input("slice", samples) + before * kSliceLanes, call->Input("near", near) + before,
-          plane};
+  return {call->Input("slice", samples), call->Input("cover", cover), cover.size()};
 }
 
-// In each slice, kSkipped rows precede the first composited row. Views move slices by at most kMost
-// rows.
-constexpr size_t kSkipped = 1, kMost = 4;
+// Views move slices by at most kMost rows.
+constexpr size_t kMost = 4;
 
 SliceViews MakeViews(size_t rows, Draw* draw, KernelCall* call, Met* met) {
   const size_t count = draw->Size(1, 6, 2), view_count = draw->Size(1, 9, 5);
-  std::vector<StripSlice> slices;
-  for (size_t k = 0; k < count; ++k) {
-    slices.push_back(
-        MakeTile(kMost + kSkipped + rows + kMost + kRowsAhead, kMost, draw, call, met));
-  }
   const auto weights = Ints<int16_t>(view_count, 0, std::min(16383, 58000 / int(view_count)), draw);
   std::vector<SliceOffset> offsets;
   for (size_t n = 0; n < view_count * count; ++n) {
     offsets.push_back(Offset(draw->Int(-int(kMost), int(kMost)), draw));
   }
-  std::vector<uint8_t> shown;
+  std::vector<SeenSlice> seen;
   for (size_t k = 0; k < count; ++k) {
-    if (!draw->Rarely(5)) shown.push_back(uint8_t(k));
+    if (draw->Rarely(5)) continue;
+    const size_t before = kMost + draw->Size(0, 70, 0);
+    const StripSlice slice = MakeTile(before + rows + kMost + kRowsAhead, draw, call, met);
+    const uint32_t shown = draw->Rarely(3) ? uint32_t(draw->Next()) : ~uint32_t{0};
+    seen.push_back({slice, before, k, shown});
   }
   return {call->Input("weights", weights),
           call->Input("offsets", offsets),
           view_count,
-          call->Input("slices", slices),
           count,
-          call->Input("shown", shown),
-          shown.size(),
-          kSkipped,
+          call->Input("seen", seen),
+          seen.size(),
           draw->Rarely(2) ? draw->Int(0, 4) : 0};
 }
 
 }  // namespace
 
 void Composite(Draw* draw, KernelCall* call) {
-  const size_t rows = draw->Length(1, 9, kTimedSamples / 4 / kSliceLanes);
+  const size_t rows = draw->Length(1, int(kMostRows), int(kMostRows));
   Met covered;
   const SliceViews views = MakeViews(rows, draw, call, &covered);
-  auto* sums = call->Results<uint32_t>("sums", 4 * rows * kSliceLanes);
-  for (size_t n = 0; n < 4 * rows * kSliceLanes; ++n) sums[n] = uint32_t(draw->Int(0, 1 << 30));
+  auto* sums = call->Results<uint32_t>("sums", kStripRow * rows);
+  for (size_t n = 0; n < kStripRow * rows; ++n) sums[n] = uint32_t(draw->Int(0, 1 << 30));
   call->Calls(&Kernels::Composite, views, rows, sums);
   call->is_right = [=](uint64_t, Met* met) {
     for (const auto& one : covered) (*met)[one.first] += one.second;
