@@ -210,40 +210,47 @@ HWY_INLINE void AddRows(const SliceOffset& offset, int16_t view_weight,
   const Factors<PlanesVec> of_planes = {planes_inside, planes_edge, planes_third, planes_fourth};
   const auto weight = hn::Set(d, view_weight), one = hn::Set(d, kSliceOne);
   for (const int16_t* const end = at + count * kStripRow; at != end; at += kStripRow) {
-    int16_t* HWY_RESTRICT light = to + kStripRow;
     auto first = kTaps > 2 ? edge : inside;
-    auto part = weight;
+    auto part = weight, light = one;
     if (!kCovered) {
       const int16_t* HWY_RESTRICT cover = at + 3 * kSliceLanes;
       first = FirstFactor<kTaps>(d, cover, kStripRow, factors);
       const auto covered = Between<kTaps>(d, cover, kStripRow, first, factors);
       if (kFront) {
-        hn::StoreU(hn::Sub(one, covered), d, light);
+        light = hn::Sub(one, covered);
       } else {
         const hn::RebindToUnsigned<LanesTag> du;
-        const auto left = hn::LoadU(d, light);
+        const auto left = hn::LoadU(d, to + kStripRow);
         const auto less = [&](LanesVec a, LanesVec b) HWY_ATTR {
           return hn::BitCast(d, hn::SaturatedSub(hn::BitCast(du, a), hn::BitCast(du, b)));
         };
         const auto share = ShareOfLight(covered, left, less(covered, left));
         part = hn::IfThenElse(hn::Gt(covered, left), hn::MulFixedPoint15(weight, share), weight);
-        hn::StoreU(less(left, covered), d, light);
+        light = less(left, covered);
       }
     } else if (!kFront) {
-      part = hn::MulFixedPoint15(weight, hn::LoadU(d, light));
+      part = hn::MulFixedPoint15(weight, hn::LoadU(d, to + kStripRow));
     }
     const auto planes_first = ForPlanes(first), planes_part = ForPlanes(part);
-    constexpr size_t kPlanes = kCovered && kPlanesAtOnce == 1 ? 3 : 4;
-    for (size_t c = 0; c < kPlanes; c += kPlanesAtOnce) {
+    // All loads precede all stores, because in-order cores wait at a load that follows a store.
+    const auto sum = [&](size_t c) HWY_ATTR {
       const size_t n = c * kSliceLanes;
       const auto value = Between<kTaps>(dp, at + n, kStripRow, planes_first, of_planes);
-      const auto sum = hn::Add(hn::LoadU(dp, to + n), hn::MulFixedPoint15(value, planes_part));
-      hn::StoreU(sum, dp, to + n);
-    }
-    if (kPlanes == 3) {
-      int16_t* HWY_RESTRICT covered = to + 3 * kSliceLanes;
-      hn::StoreU(hn::Add(hn::LoadU(d, covered), part), d, covered);
-    }
+      return hn::Add(hn::LoadU(dp, to + n), hn::MulFixedPoint15(value, planes_part));
+    };
+#if STARFOCUS_TWO_PLANES
+    const auto red_green = sum(0), blue_covered = sum(2);
+    hn::StoreU(red_green, dp, to);
+    hn::StoreU(blue_covered, dp, to + 2 * kSliceLanes);
+#else
+    const auto red = sum(0), green = sum(1), blue = sum(2);
+    const auto covered = kCovered ? hn::Add(hn::LoadU(d, to + 3 * kSliceLanes), part) : sum(3);
+    hn::StoreU(red, d, to);
+    hn::StoreU(green, d, to + kSliceLanes);
+    hn::StoreU(blue, d, to + 2 * kSliceLanes);
+    hn::StoreU(covered, d, to + 3 * kSliceLanes);
+#endif
+    if (!kCovered) hn::StoreU(light, d, to + kStripRow);
     to += kViewRow;
   }
 }
@@ -331,7 +338,10 @@ inline void Composite(const SliceViews& views, size_t rows, uint32_t* HWY_RESTRI
   const size_t lanes = hn::Lanes(d);
   const uint32_t all_rows = ~uint32_t{0} >> (kMostRows - rows);
   HWY_ALIGN int16_t view_rows[kMostRows * kViewRow];
-  for (size_t n = 0; n < rows * kViewRow; n += lanes) hn::Store(hn::Zero(d), d, view_rows + n);
+  for (size_t y = 0; y < rows; ++y) {
+    int16_t* const row = view_rows + y * kViewRow;
+    for (size_t n = 0; n < kStripRow; n += lanes) hn::StoreU(hn::Zero(d), d, row + n);
+  }
   const SeenSlice* const end = views.seen + views.seen_count;
   for (size_t n = 0; n < kSliceLanes; n += lanes) {
     const SliceOffset* offsets = views.offsets;
