@@ -33,13 +33,12 @@ template <int kTaps, class D, class V = hn::Vec<D>>
 HWY_INLINE V Between(D d, const int16_t* HWY_RESTRICT at, size_t next, V first,
                      const Factors<V>& factors) {
   const auto middle = hn::LoadU(d, at + next);
-  auto value = hn::Add(middle, hn::MulFixedPoint15(hn::Sub(middle, hn::LoadU(d, at)), first));
+  auto value = AddProduct15(middle, hn::Sub(middle, hn::LoadU(d, at)), first);
   if (kTaps == 2) return value;
   const auto after = hn::LoadU(d, at + 2 * next);
-  value = hn::Add(value, hn::MulFixedPoint15(hn::Sub(middle, after), factors.third));
+  value = AddProduct15(value, hn::Sub(middle, after), factors.third);
   if (kTaps == 3) return value;
-  const auto last = hn::Sub(after, hn::LoadU(d, at + 3 * next));
-  return hn::Add(value, hn::MulFixedPoint15(last, factors.fourth));
+  return AddProduct15(value, hn::Sub(after, hn::LoadU(d, at + 3 * next)), factors.fourth);
 }
 
 // Returns the factor of the first difference for samples with the coverage at `covered`.
@@ -190,9 +189,11 @@ HWY_INLINE LanesVec ShareOfLight(LanesVec covered, LanesVec light, LanesVec exce
   return hn::Min(hn::Sub(one, taken), hn::SaturatedAdd(twice, twice));
 }
 
-// Number of samples of a row of views: kStripRow sums of the views, as unsigned numbers, and the
-// remaining light of the current view.
+// Number of samples of a row of views: kStripRow sums of the views, as unsigned numbers plus
+// kNoSum, and the remaining light of the current view. The range of saturating additions begins at
+// kNoSum; all other additions wrap.
 constexpr size_t kViewRow = kStripRow + kSliceLanes;
+constexpr int16_t kNoSum = STARFOCUS_HAVE_ROUNDING_MULTIPLY_ADD ? INT16_MIN : 0;
 
 // Adds `count` rows of a slice to rows of a view. `at` and `to` are the first samples. If kFront is
 // true, no slice in front covers any pixel of the rows. If kCovered is true, the slice covers all
@@ -236,7 +237,7 @@ HWY_INLINE void AddRows(const SliceOffset& offset, int16_t view_weight,
     const auto sum = [&](size_t c) HWY_ATTR {
       const size_t n = c * kSliceLanes;
       const auto value = Between<kTaps>(dp, at + n, kStripRow, planes_first, of_planes);
-      return hn::Add(hn::LoadU(dp, to + n), hn::MulFixedPoint15(value, planes_part));
+      return AddProduct15(hn::LoadU(dp, to + n), value, planes_part);
     };
 #if STARFOCUS_TWO_PLANES
     const auto red_green = sum(0), blue_covered = sum(2);
@@ -327,7 +328,9 @@ HWY_INLINE void AddSums(const int16_t* HWY_RESTRICT from, int extra_bits,
   const auto half = hn::Set(d32, uint32_t{1} << extra_bits >> 1);
   const uint16_t* HWY_RESTRICT more = reinterpret_cast<const uint16_t*>(from);
   for (size_t n = 0; n < kStripRow; n += hn::Lanes(d32)) {
-    auto value = hn::PromoteTo(d32, hn::LoadU(d16, more + n));
+    auto sum = hn::LoadU(d16, more + n);
+    if (kNoSum != 0) sum = hn::Xor(sum, hn::Set(d16, static_cast<uint16_t>(kNoSum)));
+    auto value = hn::PromoteTo(d32, sum);
     if (extra_bits != 0) value = hn::ShiftRightSame(hn::Add(value, half), extra_bits);
     hn::StoreU(hn::Add(hn::LoadU(d32, sums + n), value), d32, sums + n);
   }
@@ -340,7 +343,7 @@ inline void Composite(const SliceViews& views, size_t rows, uint32_t* HWY_RESTRI
   HWY_ALIGN int16_t view_rows[kMostRows * kViewRow];
   for (size_t y = 0; y < rows; ++y) {
     int16_t* const row = view_rows + y * kViewRow;
-    for (size_t n = 0; n < kStripRow; n += lanes) hn::StoreU(hn::Zero(d), d, row + n);
+    for (size_t n = 0; n < kStripRow; n += lanes) hn::StoreU(hn::Set(d, kNoSum), d, row + n);
   }
   const SeenSlice* const end = views.seen + views.seen_count;
   for (size_t n = 0; n < kSliceLanes; n += lanes) {

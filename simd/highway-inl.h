@@ -88,6 +88,25 @@ HWY_INLINE V32 WeighPair(D32 d32, V32 a, V32 b, V32 wa, V32 wb) {
 #endif
 }
 
+// 1 if AddProduct15 is one instruction, which saturates.
+#undef STARFOCUS_HAVE_ROUNDING_MULTIPLY_ADD
+#if HWY_ARCH_ARM_A64 && HWY_TARGET == HWY_NEON && defined(__ARM_FEATURE_QRDMX)
+#define STARFOCUS_HAVE_ROUNDING_MULTIPLY_ADD 1
+#else
+#define STARFOCUS_HAVE_ROUNDING_MULTIPLY_ADD 0
+#endif
+
+// Returns sum + a * b for numbers with 15 fractional bits; the product is rounded half up. The
+// result must not exceed the range of signed 16-bit numbers.
+template <class V>
+HWY_INLINE V AddProduct15(V sum, V a, V b) {
+#if STARFOCUS_HAVE_ROUNDING_MULTIPLY_ADD
+  return V(vqrdmlahq_s16(sum.raw, a.raw, b.raw));
+#else
+  return hn::Add(sum, hn::MulFixedPoint15(a, b));
+#endif
+}
+
 #if HWY_TARGET != HWY_SCALAR
 
 // Adds a * wa + b * wb of 16-bit lanes to 32-bit sums. The order of the lanes in the two vectors of
