@@ -23,11 +23,18 @@ HWY_INLINE void AverageRows(const int16_t* above, const int16_t* below, size_t c
   }
   const hn::ScalableTag<uint16_t> d16;
   const hn::RebindToSigned<decltype(d16)> di16;
-  for (size_t n = 0; n < count; n += hn::Lanes(d16)) {
+  const auto average = [&](size_t n) HWY_ATTR {
     hn::StoreU(hn::AverageRound(hn::BitCast(d16, hn::LoadU(di16, above + n)),
                                 hn::BitCast(d16, hn::LoadU(di16, below + n))),
                d16, means + n);
+  };
+  const size_t lanes = hn::Lanes(d16);
+  size_t n = 0;
+  for (; n + lanes < count; n += 2 * lanes) {
+    average(n);
+    average(n + lanes);
   }
+  if (n < count) average(n);
 }
 
 // Means of pairs of rows to which the disc filter applies equal weights. Row y contains the means
@@ -80,47 +87,46 @@ struct DiscTaps {
   DiscTaps(const Disc& disc, const Disc& second, int dropped, int restored)
       : bits(disc.bits + dropped), second_bits(second.bits + dropped), whole(restored) {
     constexpr auto kRow = static_cast<int32_t>(DiscMeans::kStride);
-    constexpr auto kPixel = static_cast<int32_t>(DiscMeans::kPixel);
-    int32_t right = 0, left = 0;
+    constexpr auto kTap = static_cast<int32_t>(DiscMeans::kTap);
+    int32_t right = 0, left = 0;  // distances to the next tap
     for (int32_t y = 0; y <= disc.size || y <= second.size; ++y) {
-      const int32_t last = LastOf(disc, y), second_last = LastOf(second, y);
-      if (last >= 0 || second_last >= 0) rows = y + 1;
-      for (int32_t x = 0; x <= last || x <= second_last; x += 2) {
-        const int32_t to_right = y * kRow + kPixel * x, to_left = y * kRow - kPixel * x;
-        taps[count++] = {{Weight(disc, x, y), Weight(disc, x + 1, y)},
-                         {Weight(second, x, y), Weight(second, x + 1, y)},
-                         to_right - right,
-                         to_left - left};
-        right = to_right;
-        left = to_left;
+      uint16_t weights[kColumns] = {}, second_weights[kColumns] = {};
+      const int32_t columns = LoadRow(disc, y, weights);
+      const int32_t second_columns = LoadRow(second, y, second_weights);
+      const int32_t most = columns > second_columns ? columns : second_columns;
+      if (most > 0) rows = y + 1;
+      for (int32_t x = 0; x < most; x += 2) {
+        taps[count++] = {{weights[x], weights[x + 1]},
+                         {second_weights[x], second_weights[x + 1]},
+                         right,
+                         left};
+        right = kTap;
+        left = -kTap;
       }
+      // The next tap is in the middle column of the next row.
+      const int32_t back = most > 0 ? (most - 1) / 2 * kTap : 0;
+      right = (most > 0 ? 0 : right) + kRow - back;
+      left = (most > 0 ? 0 : left) + kRow + back;
     }
   }
 
  private:
-  // Returns the weight of pixel (x, y) of the disc plus the weights of the pixel's mirror images
-  // about both axes.
-  static uint16_t Weight(const Disc& disc, int32_t x, int32_t y) {
-    if (x > disc.size || y > disc.size) return 0;
-    const int32_t high = x > y ? x : y, low = x > y ? y : x;
-    const int bits = (x > 0 ? 1 : 0) + (y > 0 ? 1 : 0);
-    return static_cast<uint16_t>(disc.weights[high * (high + 1) / 2 + low] << bits);
-  }
+  static constexpr size_t kColumns = kMaxDisc + 2;
 
-  // Returns the last column of row y with a nonzero weight, or -1. In Disc::weights, the weights of
-  // a row are contiguous up to the diagonal. Beyond the diagonal, adjacent weights are as far apart
-  // as the octant's rows are long.
-  static int32_t LastOf(const Disc& disc, int32_t y) {
-    if (y > disc.size) return -1;
-    int32_t x = disc.size;
-    const uint16_t* weight = disc.weights + x * (x + 1) / 2 + y;
-    for (; x > y; weight -= x--) {
-      if (*weight != 0) return x;
+  // Loads row y of a disc: the weight of each pixel plus the weights of the pixel's mirror images
+  // about both axes. Returns the number of columns up to the last nonzero weight.
+  static int32_t LoadRow(const Disc& disc, int32_t y, uint16_t* weights) {
+    if (y > disc.size) return 0;
+    int32_t columns = 0;
+    // In Disc::weights, the weights of a row are contiguous up to the diagonal. Beyond the diagonal,
+    // adjacent weights are as far apart as the octant's rows are long.
+    const uint16_t* weight = disc.weights + y * (y + 1) / 2;
+    for (int32_t x = 0; x <= disc.size; ++x) {
+      weights[x] = static_cast<uint16_t>(*weight << ((x > 0 ? 1 : 0) + (y > 0 ? 1 : 0)));
+      if (*weight != 0) columns = x + 1;
+      weight += x < y ? 1 : x + 1;
     }
-    for (; x >= 0; --x, --weight) {
-      if (*weight != 0) return x;
-    }
-    return -1;
+    return columns;
   }
 };
 
