@@ -112,8 +112,8 @@ struct Steps {
       hn::Zero(hn::Repartition<uint32_t, UnsignedTag>());
 };
 
-// Returns the mask of the steps between a pixel of the cell and the pixel to the left that lie inside
-// the cell.
+// Returns the mask of the steps between a pixel of the cell and the pixel to the left that lie
+// inside the cell.
 HWY_INLINE UnsignedRow AllButFirst() {
   const UnsignedTag du16;
   return hn::VecFromMask(du16, hn::Gt(hn::Iota(du16, 0), hn::Zero(du16)));
@@ -157,8 +157,8 @@ HWY_INLINE uint16_t NearestOf(const int16_t* const rows[10], size_t column, int 
   return hn::GetLane(hn::MinOfLanes(UnsignedTag(), nearest));
 }
 
-// Measures the cell as if it had no depth edges, which is true for most cells, and finds the largest
-// difference between neighbours.
+// Measures the cell as if it had no depth edges, which is true for most cells, and finds the
+// largest difference between neighbours.
 inline void MeasureCell(const int16_t* const rows[10], size_t column, const CellLimits& limits,
                         CellMeasure* measure) {
   const CellTag d16;

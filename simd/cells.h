@@ -104,8 +104,8 @@ inline void AddStep(int a, int b, bool inside, int along, const CellLimits& limi
 }
 
 // Measures the cell at rows[1] .. rows[8] and at the 8 columns from `column` on. The surrounding
-// pixels are read as well: rows[0] is the row above, rows[9] is the row below, and rows have columns
-// column - 1 .. column + 8.
+// pixels are read as well: rows[0] is the row above, rows[9] is the row below, and rows have
+// columns column - 1 .. column + 8.
 STARFOCUS_REFERENCE void MeasureCell(const int16_t* const rows[10], size_t column,
                                      const CellLimits& limits, CellMeasure* measure) {
   *measure = {};
@@ -128,8 +128,8 @@ STARFOCUS_REFERENCE void MeasureCell(const int16_t* const rows[10], size_t colum
   }
 }
 
-// Finds the ranges of the lines of a cell, which lies in `rows` like a cell of MeasureCell. Only the
-// pixels of the cell are read.
+// Finds the ranges of the lines of a cell, which lies in `rows` like a cell of MeasureCell. Only
+// the pixels of the cell are read.
 STARFOCUS_REFERENCE void MeasureLines(const int16_t* const rows[10], size_t column,
                                       CellLines* lines) {
   for (int k = 0; k < 8; ++k) {

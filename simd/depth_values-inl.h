@@ -129,8 +129,7 @@ inline uint32_t DepthToDisparity(const float* HWY_RESTRICT z, size_t count, cons
 #else
   const auto scale = hn::Set(DepthTag(), rule.scale);
   // A depth that equals `invalid` has an unknown disparity, even if it is in range.
-  const float of_invalid =
-      rule.reciprocal ? rule.scale / rule.invalid : rule.scale * rule.invalid;
+  const float of_invalid = rule.reciprocal ? rule.scale / rule.invalid : rule.scale * rule.invalid;
   if (!(of_invalid + rule.offset >= rule.low && of_invalid + rule.offset <= rule.high)) {
     const auto scale64 = hn::Set(DepthTag(), rule.scale * 64);
     const auto multiply = [&](hn::Vec<DepthTag> depth) HWY_ATTR { return hn::Mul(scale64, depth); };

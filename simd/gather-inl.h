@@ -96,10 +96,8 @@ struct DiscTaps {
       const int32_t most = columns > second_columns ? columns : second_columns;
       if (most > 0) rows = y + 1;
       for (int32_t x = 0; x < most; x += 2) {
-        taps[count++] = {{weights[x], weights[x + 1]},
-                         {second_weights[x], second_weights[x + 1]},
-                         right,
-                         left};
+        taps[count++] = {
+            {weights[x], weights[x + 1]}, {second_weights[x], second_weights[x + 1]}, right, left};
         right = kTap;
         left = -kTap;
       }
@@ -118,8 +116,8 @@ struct DiscTaps {
   static int32_t LoadRow(const Disc& disc, int32_t y, uint16_t* weights) {
     if (y > disc.size) return 0;
     int32_t columns = 0;
-    // In Disc::weights, the weights of a row are contiguous up to the diagonal. Beyond the diagonal,
-    // adjacent weights are as far apart as the octant's rows are long.
+    // In Disc::weights, the weights of a row are contiguous up to the diagonal. Beyond the
+    // diagonal, adjacent weights are as far apart as the octant's rows are long.
     const uint16_t* weight = disc.weights + y * (y + 1) / 2;
     for (int32_t x = 0; x <= disc.size; ++x) {
       weights[x] = static_cast<uint16_t>(*weight << ((x > 0 ? 1 : 0) + (y > 0 ? 1 : 0)));
@@ -216,11 +214,12 @@ HWY_NOINLINE void FilterVectors(const DiscTaps& disc, const uint16_t* HWY_RESTRI
     left += tap.left;
     const auto add = [&](size_t n, auto& low, auto& high, auto& second_low, auto& second_high)
                          HWY_ATTR {
-      const auto first = MeansOf(right + n, left + n);
-      const auto next = MeansOf(right + n + kPixel, left + n - kPixel);
-      AddMeans(first, next, tap.weights, low, high);
-      if (kTwo) AddMeans(first, next, tap.second_weights, second_low, second_high);
-    };
+                           const auto first = MeansOf(right + n, left + n);
+                           const auto next = MeansOf(right + n + kPixel, left + n - kPixel);
+                           AddMeans(first, next, tap.weights, low, high);
+                           if (kTwo)
+                             AddMeans(first, next, tap.second_weights, second_low, second_high);
+                         };
     add(0, low0, high0, low2, high2);
     if (kVectors > 1) add(lanes, low1, high1, low3, high3);
     if (kVectors > 2) {

@@ -156,8 +156,8 @@ class CellRow {
     pixels->column = 1;
   }
 
-  // Returns the tile of the coverage at column x of the picture if it has thin structures, otherwise
-  // null.
+  // Returns the tile of the coverage at column x of the picture if it has thin structures,
+  // otherwise null.
   const CoverageTile* ThinTile(int32_t x) const {
     const CoverageTile& tile = input_.coverage->Tile(x / kCoverageTile, y_ / kCoverageTile);
     return tile.thin == 0 || tile.low > tile.high ? nullptr : &tile;
