@@ -12,6 +12,7 @@ namespace HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
 
 using reference::MeasureCell;
+using reference::MeasureLines;
 using reference::ReachBlock;
 using reference::SurroundCells;
 
@@ -27,6 +28,15 @@ using UnsignedRow = hn::Vec<UnsignedTag>;
 HWY_INLINE UnsignedRow Distance(CellRow a, CellRow b) {
   const UnsignedTag du16;
   return hn::Sub(hn::BitCast(du16, hn::Max(a, b)), hn::BitCast(du16, hn::Min(a, b)));
+}
+
+// Returns |a - b|, or a number from 32767 on if |a - b| is larger. All limits of steps are smaller.
+HWY_INLINE UnsignedRow StepOf(CellRow a, CellRow b) {
+#if HWY_ARCH_ARM  // compilers use one instruction for Distance
+  return Distance(a, b);
+#else
+  return hn::BitCast(UnsignedTag(), hn::Abs(hn::SaturatedSub(a, b)));
+#endif
 }
 
 // Reduces each of eight vectors to its minimum or maximum; `take` is hn::Min or hn::Max. Lane k of
@@ -71,7 +81,7 @@ struct Steps {
   HWY_INLINE void Add(CellRow a, CellRow b, UnsignedRow inside) {
     const CellTag d16;
     const UnsignedTag du16;
-    const auto step = Distance(a, b);
+    const auto step = StepOf(a, b);
     const auto beyond = hn::Gt(step, edge);
     const auto at_edge = hn::VecFromMask(du16, beyond);
     const auto nearer = hn::Max(a, b);
@@ -102,51 +112,31 @@ struct Steps {
       hn::Zero(hn::Repartition<uint32_t, UnsignedTag>());
 };
 
-// Measures the differences between neighbouring disparities in a cell without depth edges. Returns
-// false if the cell has a depth edge. Most cells have no depth edge.
-HWY_INLINE bool MeasureSlopes(const int16_t* const rows[10], const CellRow (&here)[8],
-                              UnsignedRow all_but_first, const CellLimits& limits,
-                              CellMeasure* measure) {
-  const CellTag d16;
+// Returns the mask of the steps between a pixel of the cell and the pixel to the left that lie
+// inside the cell.
+HWY_INLINE UnsignedRow AllButFirst() {
   const UnsignedTag du16;
-  const auto limit = hn::Set(du16, static_cast<uint16_t>(limits.slope_limit));
-  auto along_rows = hn::Zero(du16), along_columns = along_rows;
-  auto largest = hn::Max(Distance(hn::LoadU(d16, rows[0]), here[0]),
-                         Distance(hn::LoadU(d16, rows[9]), here[7]));
-  for (int k = 0; k < 8; ++k) {
-    const auto left = Distance(hn::LoadU(d16, rows[1 + k] - 1), here[k]);
-    const auto right = Distance(hn::LoadU(d16, rows[1 + k] + 1), here[k]);
-    largest = hn::Max(largest, hn::Max(left, right));
-    along_rows = hn::Add(along_rows, hn::And(all_but_first, hn::Min(left, limit)));
-    if (k == 0) continue;
-    const auto down = Distance(here[k - 1], here[k]);
-    largest = hn::Max(largest, down);
-    along_columns = hn::Add(along_columns, hn::Min(down, limit));
-  }
-  const auto edge = hn::Set(du16, static_cast<uint16_t>(limits.edge));
-  if (!hn::AllFalse(du16, hn::Gt(largest, edge))) return false;
-  measure->slopes[0] = SumOf(along_rows);
-  measure->slopes[1] = SumOf(along_columns);
-  for (int along = 0; along < 2; ++along) measure->edges[along] = measure->gaps[along] = 0;
-  measure->edge_low = INT16_MAX;
-  measure->edge_high = INT16_MIN;
-  return true;
+  return hn::VecFromMask(du16, hn::Gt(hn::Iota(du16, 0), hn::Zero(du16)));
 }
 
-HWY_INLINE void MeasureSteps(const int16_t* const rows[10], const CellRow (&here)[8],
-                             UnsignedRow all_but_first, const CellLimits& limits,
+// Measures the differences between neighbouring disparities in a cell with depth edges.
+HWY_INLINE void MeasureSteps(const int16_t* const rows[10], size_t column, const CellLimits& limits,
                              CellMeasure* measure) {
   const CellTag d16;
   const UnsignedTag du16;
   const auto all = hn::Set(du16, uint16_t{0xFFFF}), none = hn::Zero(du16);
+  const auto all_but_first = AllButFirst();
   Steps along_rows(limits), along_columns(limits);
-  along_columns.Add(hn::LoadU(d16, rows[0]), here[0], none);
-  along_columns.Add(hn::LoadU(d16, rows[9]), here[7], none);
+  auto above = hn::LoadU(d16, rows[0] + column);
   for (int k = 0; k < 8; ++k) {
-    along_rows.Add(hn::LoadU(d16, rows[1 + k] - 1), here[k], all_but_first);
-    along_rows.Add(hn::LoadU(d16, rows[1 + k] + 1), here[k], none);
-    if (k > 0) along_columns.Add(here[k - 1], here[k], all);
+    const int16_t* row = rows[1 + k] + column;
+    const auto own = hn::LoadU(d16, row);
+    along_rows.Add(hn::LoadU(d16, row - 1), own, all_but_first);
+    along_rows.Add(hn::LoadU(d16, row + 1), own, none);
+    along_columns.Add(above, own, k == 0 ? none : all);
+    above = own;
   }
+  along_columns.Add(above, hn::LoadU(d16, rows[9] + column), none);
   measure->edge_low = hn::GetLane(hn::MinOfLanes(d16, hn::Min(along_rows.low, along_columns.low)));
   measure->edge_high =
       hn::GetLane(hn::MaxOfLanes(d16, hn::Max(along_rows.high, along_columns.high)));
@@ -154,32 +144,75 @@ HWY_INLINE void MeasureSteps(const int16_t* const rows[10], const CellRow (&here
   along_columns.Store(1, measure);
 }
 
-inline void MeasureCell(const int16_t* const rows[10], const CellLimits& limits,
+// Returns the smallest distance between `focus` and a disparity of the cell, in [low, high].
+HWY_INLINE uint16_t NearestOf(const int16_t* const rows[10], size_t column, int low, int high,
+                              int16_t focus) {
+  if (focus <= low) return static_cast<uint16_t>(low - focus);
+  if (focus >= high) return static_cast<uint16_t>(focus - high);
+  const CellTag d16;
+  auto nearest = hn::Set(UnsignedTag(), uint16_t{0xFFFF});
+  for (int k = 1; k < 9; ++k) {
+    nearest = hn::Min(nearest, Distance(hn::LoadU(d16, rows[k] + column), hn::Set(d16, focus)));
+  }
+  return hn::GetLane(hn::MinOfLanes(UnsignedTag(), nearest));
+}
+
+// Measures the cell as if it had no depth edges, which is true for most cells, and finds the
+// largest difference between neighbours.
+inline void MeasureCell(const int16_t* const rows[10], size_t column, const CellLimits& limits,
                         CellMeasure* measure) {
   const CellTag d16;
   const UnsignedTag du16;
+  const auto limit = hn::Set(du16, static_cast<uint16_t>(limits.slope_limit));
+  const auto limit_inside = hn::And(AllButFirst(), limit);
+  auto above = hn::LoadU(d16, rows[0] + column);
+  auto low = hn::LoadU(d16, rows[1] + column), high = low;
+  auto largest = StepOf(hn::LoadU(d16, rows[8] + column), hn::LoadU(d16, rows[9] + column));
+  auto along_rows = hn::Zero(du16);
+  // The step from the row above leads into the cell, and is therefore subtracted.
+  auto along_columns = hn::Sub(along_rows, hn::Min(StepOf(above, low), limit));
+  for (int k = 1; k < 9; ++k) {
+    const int16_t* row = rows[k] + column;
+    const auto own = hn::LoadU(d16, row);
+    const auto left = StepOf(hn::LoadU(d16, row - 1), own);
+    const auto right = StepOf(hn::LoadU(d16, row + 1), own), down = StepOf(above, own);
+    low = hn::Min(low, own);
+    high = hn::Max(high, own);
+    largest = hn::Max(hn::Max(largest, down), hn::Max(left, right));
+    along_rows = hn::Add(along_rows, hn::Min(left, limit_inside));
+    along_columns = hn::Add(along_columns, hn::Min(down, limit));
+    above = own;
+  }
+  measure->low = hn::GetLane(hn::MinOfLanes(d16, low));
+  measure->high = hn::GetLane(hn::MaxOfLanes(d16, high));
+  measure->nearest = NearestOf(rows, column, measure->low, measure->high, limits.focus);
+  const auto edge = hn::Set(du16, static_cast<uint16_t>(limits.edge));
+  if (!hn::AllFalse(du16, hn::Gt(largest, edge))) {
+    MeasureSteps(rows, column, limits, measure);
+    return;
+  }
+  measure->slopes[0] = SumOf(along_rows);
+  measure->slopes[1] = SumOf(along_columns);
+  for (int along = 0; along < 2; ++along) measure->edges[along] = measure->gaps[along] = 0;
+  measure->edge_low = INT16_MAX;
+  measure->edge_high = INT16_MIN;
+}
+
+inline void MeasureLines(const int16_t* const rows[10], size_t column, CellLines* lines) {
+  const CellTag d16;
   const auto min = [](CellRow a, CellRow b) HWY_ATTR { return hn::Min(a, b); };
   const auto max = [](CellRow a, CellRow b) HWY_ATTR { return hn::Max(a, b); };
-  // The difference between columns -1 and 0 crosses the boundary of the cell, and therefore does
-  // not count as inside the cell.
-  const auto all_but_first = hn::VecFromMask(du16, hn::Gt(hn::Iota(du16, 0), hn::Zero(du16)));
-  const auto focus = hn::Set(d16, limits.focus);
   CellRow here[8];
-  for (int k = 0; k < 8; ++k) here[k] = hn::LoadU(d16, rows[1 + k]);
+  for (int k = 0; k < 8; ++k) here[k] = hn::LoadU(d16, rows[1 + k] + column);
   auto low = here[0], high = here[0];
-  auto nearest = hn::Set(du16, uint16_t{0xFFFF});
-  for (int k = 0; k < 8; ++k) {
+  for (int k = 1; k < 8; ++k) {
     low = hn::Min(low, here[k]);
     high = hn::Max(high, here[k]);
-    nearest = hn::Min(nearest, Distance(here[k], focus));
   }
-  hn::StoreU(low, d16, measure->column_low);
-  hn::StoreU(high, d16, measure->column_high);
-  hn::StoreU(ReduceRows(here, min), d16, measure->row_low);
-  hn::StoreU(ReduceRows(here, max), d16, measure->row_high);
-  measure->nearest = hn::GetLane(hn::MinOfLanes(du16, nearest));
-  if (MeasureSlopes(rows, here, all_but_first, limits, measure)) return;
-  MeasureSteps(rows, here, all_but_first, limits, measure);
+  hn::StoreU(low, d16, lines->column_low);
+  hn::StoreU(high, d16, lines->column_high);
+  hn::StoreU(ReduceRows(here, min), d16, lines->row_low);
+  hn::StoreU(ReduceRows(here, max), d16, lines->row_high);
 }
 
 // Finds how far the blur of cells extends towards a block, for a vector of columns of cells. Lane k

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels for cells, the 8x8 squares of disparities that blocks consist of. One kernel
-// measures a cell for the partition into blocks. The other kernels examine the cells around a block
+// SIMD kernels for cells, the 8x8 squares of disparities that blocks consist of. Two kernels
+// measure a cell for the partition into blocks. The other kernels examine the cells around a block
 // or around each cell. They find the cells whose blur reaches the block or cell, and the cells that
 // the blur of the block or cell reaches.
 #ifndef STARFOCUS_SIMD_CELLS_H_
@@ -25,9 +25,8 @@ struct CellLimits {
 
 // Output of MeasureCell for 8x8 disparities and their neighbours.
 struct CellMeasure {
-  int16_t column_low[8], column_high[8];  // Lowest and highest disparity of each column.
-  int16_t row_low[8], row_high[8];        // Lowest and highest disparity of each row.
-  uint16_t nearest;                       // Smallest |disparity - focus|.
+  int16_t low, high;  // Lowest and highest disparity.
+  uint16_t nearest;   // Smallest |disparity - focus|.
   // Lowest and highest disparity of the nearer sides of depth edges. The edges lie between two
   // pixels of the cell, or between a pixel of the cell and a neighbour outside. If edge_low >
   // edge_high, the cell has no depth edge.
@@ -37,6 +36,12 @@ struct CellMeasure {
   // differences within surfaces. `edges` is the number of depth edges, and `gaps` the sum of the
   // differences at depth edges.
   uint32_t slopes[2], edges[2], gaps[2];
+};
+
+// Output of MeasureLines for 8x8 disparities.
+struct CellLines {
+  int16_t column_low[8], column_high[8];  // Lowest and highest disparity of each column.
+  int16_t row_low[8], row_high[8];        // Lowest and highest disparity of each row.
 };
 
 inline constexpr int16_t kCellPixels = 8;
@@ -98,33 +103,46 @@ inline void AddStep(int a, int b, bool inside, int along, const CellLimits& limi
   }
 }
 
-// Measures the cell at rows[1] .. rows[8], columns 0 .. 7. The surrounding pixels are read as well:
-// rows[0] is the row above, rows[9] is the row below, and rows have columns -1 .. 8.
-STARFOCUS_REFERENCE void MeasureCell(const int16_t* const rows[10], const CellLimits& limits,
-                                     CellMeasure* measure) {
-  for (int k = 0; k < 8; ++k) {
-    measure->column_low[k] = measure->column_high[k] = rows[1][k];
-    measure->row_low[k] = measure->row_high[k] = rows[1 + k][0];
-  }
+// Measures the cell at rows[1] .. rows[8] and at the 8 columns from `column` on. The surrounding
+// pixels are read as well: rows[0] is the row above, rows[9] is the row below, and rows have
+// columns column - 1 .. column + 8.
+STARFOCUS_REFERENCE void MeasureCell(const int16_t* const rows[10], size_t column,
+                                     const CellLimits& limits, CellMeasure* measure) {
+  *measure = {};
+  measure->low = measure->edge_low = INT16_MAX;
+  measure->high = measure->edge_high = INT16_MIN;
   measure->nearest = UINT16_MAX;
-  measure->edge_low = INT16_MAX;
-  measure->edge_high = INT16_MIN;
-  for (int along = 0; along < 2; ++along) {
-    measure->slopes[along] = measure->edges[along] = measure->gaps[along] = 0;
-  }
   for (int y = 0; y < 8; ++y) {
-    const int16_t* row = rows[1 + y];
+    const int16_t *row = rows[1 + y] + column, *above = rows[y] + column;
     for (int x = 0; x < 8; ++x) {
-      AddDisparity(row[x], &measure->column_low[x], &measure->column_high[x]);
-      AddDisparity(row[x], &measure->row_low[y], &measure->row_high[y]);
+      AddDisparity(row[x], &measure->low, &measure->high);
       const int distance = std::abs(row[x] - limits.focus);
       if (distance < measure->nearest) measure->nearest = static_cast<uint16_t>(distance);
       AddStep(row[x - 1], row[x], x > 0, 0, limits, measure);
-      AddStep(rows[y][x], row[x], y > 0, 1, limits, measure);
+      AddStep(above[x], row[x], y > 0, 1, limits, measure);
     }
     AddStep(row[7], row[8], false, 0, limits, measure);
   }
-  for (int x = 0; x < 8; ++x) AddStep(rows[8][x], rows[9][x], false, 1, limits, measure);
+  for (size_t x = column; x < column + 8; ++x) {
+    AddStep(rows[8][x], rows[9][x], false, 1, limits, measure);
+  }
+}
+
+// Finds the ranges of the lines of a cell, which lies in `rows` like a cell of MeasureCell. Only
+// the pixels of the cell are read.
+STARFOCUS_REFERENCE void MeasureLines(const int16_t* const rows[10], size_t column,
+                                      CellLines* lines) {
+  for (int k = 0; k < 8; ++k) {
+    lines->column_low[k] = lines->row_low[k] = INT16_MAX;
+    lines->column_high[k] = lines->row_high[k] = INT16_MIN;
+  }
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      const int16_t disparity = rows[1 + y][column + static_cast<size_t>(x)];
+      AddDisparity(disparity, &lines->column_low[x], &lines->column_high[x]);
+      AddDisparity(disparity, &lines->row_low[y], &lines->row_high[y]);
+    }
+  }
 }
 
 // Returns the number of pixels between cell k and a block that consists of cells `around` and

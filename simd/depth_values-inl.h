@@ -68,6 +68,28 @@ inline void Depth16ToDepth(const uint16_t* HWY_RESTRICT values, size_t count,
   if (!done) reference::Depth16ToDepth(values, count, z);
 }
 
+// Converts depths whose disparities are all in the allowed range. The function `scaled` computes
+// scale * z or scale / z, in 1/64 pixel. Multiplications by 64 are exact, so the disparities are 64
+// times the disparities of the reference. Returns false if a disparity is unknown or not in range,
+// or if there are fewer depths than lanes.
+template <class Scaled>
+HWY_INLINE bool ConvertInside(const float* HWY_RESTRICT z, size_t count, const DepthRule& rule,
+                              const Scaled& scaled, int16_t* HWY_RESTRICT out) {
+  const DepthTag df;
+  const DepthBits d32;
+  const hn::Rebind<int16_t, DepthTag> d16;
+  const auto offset = hn::Set(df, rule.offset * 64), half = hn::Set(df, 0.5f);
+  const auto low = hn::Set(df, rule.low * 64), high = hn::Set(df, rule.high * 64);
+  auto inside = hn::Eq(low, low);
+  const bool done = ForVectors(count, hn::Lanes(df), [&](size_t n) HWY_ATTR {
+    const auto disparity = hn::Add(scaled(hn::LoadU(df, z + n)), offset);
+    inside = hn::And(inside, hn::And(hn::Ge(disparity, low), hn::Le(disparity, high)));
+    const auto steps = hn::ConvertTo(d32, hn::Floor(hn::Add(disparity, half)));
+    hn::StoreU(hn::DemoteTo(d16, steps), d16, out + n);
+  });
+  return done && hn::AllTrue(df, inside);
+}
+
 // Converts depths to disparities. The function `scaled` computes scale * z or scale / z.
 template <class Scaled>
 HWY_INLINE uint32_t ConvertDepths(const float* HWY_RESTRICT z, size_t count, const DepthRule& rule,
@@ -106,6 +128,17 @@ inline uint32_t DepthToDisparity(const float* HWY_RESTRICT z, size_t count, cons
   return reference::DepthToDisparity(z, count, rule, out);
 #else
   const auto scale = hn::Set(DepthTag(), rule.scale);
+  // A depth that equals `invalid` has an unknown disparity, even if it is in range.
+  const float of_invalid = rule.reciprocal ? rule.scale / rule.invalid : rule.scale * rule.invalid;
+  if (!(of_invalid + rule.offset >= rule.low && of_invalid + rule.offset <= rule.high)) {
+    const auto scale64 = hn::Set(DepthTag(), rule.scale * 64);
+    const auto multiply = [&](hn::Vec<DepthTag> depth) HWY_ATTR { return hn::Mul(scale64, depth); };
+    const auto divide = [&](hn::Vec<DepthTag> depth) HWY_ATTR { return hn::Div(scale64, depth); };
+    if (rule.reciprocal ? ConvertInside(z, count, rule, divide, out)
+                        : ConvertInside(z, count, rule, multiply, out)) {
+      return 0;
+    }
+  }
   if (!rule.reciprocal) {
     return ConvertDepths(
         z, count, rule, [&](hn::Vec<DepthTag> value) HWY_ATTR { return hn::Mul(scale, value); },

@@ -23,11 +23,18 @@ HWY_INLINE void AverageRows(const int16_t* above, const int16_t* below, size_t c
   }
   const hn::ScalableTag<uint16_t> d16;
   const hn::RebindToSigned<decltype(d16)> di16;
-  for (size_t n = 0; n < count; n += hn::Lanes(d16)) {
+  const auto average = [&](size_t n) HWY_ATTR {
     hn::StoreU(hn::AverageRound(hn::BitCast(d16, hn::LoadU(di16, above + n)),
                                 hn::BitCast(d16, hn::LoadU(di16, below + n))),
                d16, means + n);
+  };
+  const size_t lanes = hn::Lanes(d16);
+  size_t n = 0;
+  for (; n + lanes < count; n += 2 * lanes) {
+    average(n);
+    average(n + lanes);
   }
+  if (n < count) average(n);
 }
 
 // Means of pairs of rows to which the disc filter applies equal weights. Row y contains the means
@@ -65,7 +72,9 @@ struct DiscMeans {
 struct DiscTaps {
   struct Tap {
     uint16_t weights[2], second_weights[2];
-    int32_t right, left;  // offsets in DiscMeans of the first column and of its mirror image
+    // Distances in DiscMeans of the first column and of its mirror image from those of the previous
+    // tap. The first tap has the middle column.
+    int32_t right, left;
   };
   Tap taps[(kMaxDisc + 1) * (kMaxDisc / 2 + 1)];
   size_t count = 0;
@@ -78,43 +87,44 @@ struct DiscTaps {
   DiscTaps(const Disc& disc, const Disc& second, int dropped, int restored)
       : bits(disc.bits + dropped), second_bits(second.bits + dropped), whole(restored) {
     constexpr auto kRow = static_cast<int32_t>(DiscMeans::kStride);
-    constexpr auto kPixel = static_cast<int32_t>(DiscMeans::kPixel);
+    constexpr auto kTap = static_cast<int32_t>(DiscMeans::kTap);
+    int32_t right = 0, left = 0;  // distances to the next tap
     for (int32_t y = 0; y <= disc.size || y <= second.size; ++y) {
-      const int32_t last = LastOf(disc, y), second_last = LastOf(second, y);
-      if (last >= 0 || second_last >= 0) rows = y + 1;
-      for (int32_t x = 0; x <= last || x <= second_last; x += 2) {
-        taps[count++] = {{Weight(disc, x, y), Weight(disc, x + 1, y)},
-                         {Weight(second, x, y), Weight(second, x + 1, y)},
-                         y * kRow + kPixel * x,
-                         y * kRow - kPixel * x};
+      uint16_t weights[kColumns] = {}, second_weights[kColumns] = {};
+      const int32_t columns = LoadRow(disc, y, weights);
+      const int32_t second_columns = LoadRow(second, y, second_weights);
+      const int32_t most = columns > second_columns ? columns : second_columns;
+      if (most > 0) rows = y + 1;
+      for (int32_t x = 0; x < most; x += 2) {
+        taps[count++] = {
+            {weights[x], weights[x + 1]}, {second_weights[x], second_weights[x + 1]}, right, left};
+        right = kTap;
+        left = -kTap;
       }
+      // The next tap is in the middle column of the next row.
+      const int32_t back = most > 0 ? (most - 1) / 2 * kTap : 0;
+      right = (most > 0 ? 0 : right) + kRow - back;
+      left = (most > 0 ? 0 : left) + kRow + back;
     }
   }
 
  private:
-  // Returns the weight of pixel (x, y) of the disc plus the weights of the pixel's mirror images
-  // about both axes.
-  static uint16_t Weight(const Disc& disc, int32_t x, int32_t y) {
-    if (x > disc.size || y > disc.size) return 0;
-    const int32_t high = x > y ? x : y, low = x > y ? y : x;
-    const int bits = (x > 0 ? 1 : 0) + (y > 0 ? 1 : 0);
-    return static_cast<uint16_t>(disc.weights[high * (high + 1) / 2 + low] << bits);
-  }
+  static constexpr size_t kColumns = kMaxDisc + 2;
 
-  // Returns the last column of row y with a nonzero weight, or -1. In Disc::weights, the weights of
-  // a row are contiguous up to the diagonal. Beyond the diagonal, adjacent weights are as far apart
-  // as the octant's rows are long.
-  static int32_t LastOf(const Disc& disc, int32_t y) {
-    if (y > disc.size) return -1;
-    int32_t x = disc.size;
-    const uint16_t* weight = disc.weights + x * (x + 1) / 2 + y;
-    for (; x > y; weight -= x--) {
-      if (*weight != 0) return x;
+  // Loads row y of a disc: the weight of each pixel plus the weights of the pixel's mirror images
+  // about both axes. Returns the number of columns up to the last nonzero weight.
+  static int32_t LoadRow(const Disc& disc, int32_t y, uint16_t* weights) {
+    if (y > disc.size) return 0;
+    int32_t columns = 0;
+    // In Disc::weights, the weights of a row are contiguous up to the diagonal. Beyond the
+    // diagonal, adjacent weights are as far apart as the octant's rows are long.
+    const uint16_t* weight = disc.weights + y * (y + 1) / 2;
+    for (int32_t x = 0; x <= disc.size; ++x) {
+      weights[x] = static_cast<uint16_t>(*weight << ((x > 0 ? 1 : 0) + (y > 0 ? 1 : 0)));
+      if (*weight != 0) columns = x + 1;
+      weight += x < y ? 1 : x + 1;
     }
-    for (; x >= 0; --x, --weight) {
-      if (*weight != 0) return x;
-    }
-    return -1;
+    return columns;
   }
 };
 
@@ -131,11 +141,12 @@ inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means
     return static_cast<int16_t>((sum + (uint32_t{1} << (bits - 1))) >> bits << disc.whole);
   };
   for (size_t n = 0; n < count; ++n) {
-    const uint16_t* at = means + n;
+    const uint16_t *right = means + n, *left = right;
     uint32_t sum = 0, second_sum = 0;
     for (size_t k = 0; k < disc.count; ++k) {
       const DiscTaps::Tap& tap = disc.taps[k];
-      const uint16_t *right = at + tap.right, *left = at + tap.left;
+      right += tap.right;
+      left += tap.left;
       const uint32_t first = (right[0] + left[0] + uint32_t{1}) >> 1;
       const uint32_t next = (right[kPixel] + left[-kPixel] + uint32_t{1}) >> 1;
       sum += first * tap.weights[0] + next * tap.weights[1];
@@ -177,53 +188,73 @@ HWY_INLINE void StoreSums(hn::Vec<SumsTag> low, hn::Vec<SumsTag> high, int bits,
   hn::StoreU(hn::ShiftLeftSame(both, whole), LightTag(), light);
 }
 
-// Second result that FilterMeansVector computes together with the first result, so that both mix
-// loads of means or weights.
-enum class Beside { kNothing, kNextVector, kSecondDisc };
+// Largest numbers of adjacent vectors of means that FilterMeans filters together with one disc and
+// with two discs. These vectors share loads of offsets and weights. With more vectors, the filter
+// takes fewer instructions on AArch64, which has 32 vector registers, but spills registers on SSE4.
+#if HWY_ARCH_ARM_A64 && !HWY_HAVE_SCALABLE
+inline constexpr size_t kMeansVectors = 4, kTwoDiscsVectors = 2;
+#else
+inline constexpr size_t kMeansVectors = 2, kTwoDiscsVectors = 1;
+#endif
 
-// Filters a vector of means. The function is not inlined, to keep WebAssembly modules small.
-template <Beside kBeside>
-HWY_NOINLINE void FilterMeansVector(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means,
-                                    int16_t* HWY_RESTRICT light,
-                                    int16_t* HWY_RESTRICT other_light) {
+// Filters kVectors adjacent vectors of means. If kTwo is true, kVectors is at most 2. The function
+// is not inlined, to keep WebAssembly modules small.
+template <size_t kVectors, bool kTwo>
+HWY_NOINLINE void FilterVectors(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means,
+                                int16_t* HWY_RESTRICT light, int16_t* HWY_RESTRICT second_light) {
   const size_t lanes = hn::Lanes(MeansTag());
   constexpr ptrdiff_t kPixel = DiscMeans::kPixel;
-  auto low = hn::Zero(SumsTag()), high = low, other_low = low, other_high = low;
+  // Sums of four vectors. If kTwo is true, sums 2 and 3 are sums of the second disc.
+  auto low0 = hn::Zero(SumsTag()), low1 = low0, low2 = low0, low3 = low0;
+  auto high0 = low0, high1 = low0, high2 = low0, high3 = low0;
+  const uint16_t *right = means, *left = means;
   for (size_t k = 0; k < disc.count; ++k) {
     const DiscTaps::Tap& tap = disc.taps[k];
-    const uint16_t *right = means + tap.right, *left = means + tap.left;
-    const auto first = MeansOf(right, left), next = MeansOf(right + kPixel, left - kPixel);
-    AddMeans(first, next, tap.weights, low, high);
-    if (kBeside == Beside::kNextVector) {
-      right += lanes;
-      left += lanes;
-      AddMeans(MeansOf(right, left), MeansOf(right + kPixel, left - kPixel), tap.weights, other_low,
-               other_high);
-    } else if (kBeside == Beside::kSecondDisc) {
-      AddMeans(first, next, tap.second_weights, other_low, other_high);
+    right += tap.right;
+    left += tap.left;
+    const auto add = [&](size_t n, auto& low, auto& high, auto& second_low, auto& second_high)
+                         HWY_ATTR {
+                           const auto first = MeansOf(right + n, left + n);
+                           const auto next = MeansOf(right + n + kPixel, left + n - kPixel);
+                           AddMeans(first, next, tap.weights, low, high);
+                           if (kTwo)
+                             AddMeans(first, next, tap.second_weights, second_low, second_high);
+                         };
+    add(0, low0, high0, low2, high2);
+    if (kVectors > 1) add(lanes, low1, high1, low3, high3);
+    if (kVectors > 2) {
+      add(2 * lanes, low2, high2, low2, high2);
+      add(3 * lanes, low3, high3, low3, high3);
     }
   }
-  StoreSums(low, high, disc.bits, disc.whole, light);
-  if (kBeside == Beside::kNothing) return;
-  const int other_bits = kBeside == Beside::kSecondDisc ? disc.second_bits : disc.bits;
-  StoreSums(other_low, other_high, other_bits, disc.whole, other_light);
+  StoreSums(low0, high0, disc.bits, disc.whole, light);
+  if (kVectors > 1) StoreSums(low1, high1, disc.bits, disc.whole, light + lanes);
+  if (kTwo) {
+    StoreSums(low2, high2, disc.second_bits, disc.whole, second_light);
+    if (kVectors > 1) StoreSums(low3, high3, disc.second_bits, disc.whole, second_light + lanes);
+  } else if (kVectors > 2) {
+    StoreSums(low2, high2, disc.bits, disc.whole, light + 2 * lanes);
+    StoreSums(low3, high3, disc.bits, disc.whole, light + 3 * lanes);
+  }
 }
 
 template <bool kTwo>
 inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means, size_t count,
                         int16_t* HWY_RESTRICT light, int16_t* HWY_RESTRICT second_light) {
-  const size_t lanes = hn::Lanes(hn::ScalableTag<uint16_t>());
+  constexpr size_t kMost = kTwo ? kTwoDiscsVectors : kMeansVectors;
+  // Three vectors are filtered as four, which takes as many instructions as two and one.
+  constexpr size_t kLeast = kMost > 2 ? 3 : kMost;
+  const size_t lanes = hn::Lanes(MeansTag());
   size_t n = 0;
-  if (kTwo) {
-    for (; n < count; n += lanes) {
-      FilterMeansVector<Beside::kSecondDisc>(disc, means + n, light + n, second_light + n);
-    }
-    return;
+  const auto second = [&] { return kTwo ? second_light + n : nullptr; };
+  for (; n + (kLeast - 1) * lanes < count; n += kMost * lanes) {
+    FilterVectors<kMost, kTwo>(disc, means + n, light + n, second());
   }
-  for (; n + lanes < count; n += 2 * lanes) {
-    FilterMeansVector<Beside::kNextVector>(disc, means + n, light + n, light + n + lanes);
+  if (kMost > 2 && n + lanes < count) {
+    FilterVectors<2, kTwo>(disc, means + n, light + n, second());
+    n += 2 * lanes;
   }
-  if (n < count) FilterMeansVector<Beside::kNothing>(disc, means + n, light + n, nullptr);
+  if (n < count) FilterVectors<1, kTwo>(disc, means + n, light + n, second());
 }
 
 #endif

@@ -88,6 +88,7 @@
   KERNEL(Composite)               \
   KERNEL(FinishComposite)         \
   KERNEL(MeasureCell)             \
+  KERNEL(MeasureLines)            \
   KERNEL(ReachBlock)              \
   KERNEL(SurroundCells)           \
   KERNEL(WidenPhases)             \

@@ -14,6 +14,13 @@ namespace {
 // Largest number of pixels that are read at once into a buffer on the stack.
 constexpr int32_t kMost = 72;
 
+// Prefetches the row after the next one behind `codes`. Side views are read in short pieces, row by
+// row. Hardware prefetchers do not predict the addresses of such short pieces. Prefetching saves 2
+// to 4 % of the time on scenes with 5 views.
+void Prefetch(const Input& in, int view, const uint8_t* codes) {
+  if (view > 0) __builtin_prefetch(codes + 2 * in.images[view].strides[0]);
+}
+
 // Reads up to kMost pixels of a row of a view. Pixels outside the picture repeat its edge.
 void ReadRow(const Input& in, int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
   const int32_t right = in.width - 1;
@@ -32,24 +39,52 @@ void ReadRow(const Input& in, int view, int32_t x, int32_t y, int32_t count, int
   }
 }
 
+// Calls use(value), in which value(k, n) is the light of sample n of row y + k, n < 3 count, for
+// k < kRows. Row y + k begins at column x. Pixels outside the picture repeat its edge. Light of
+// packed pixels inside the picture is looked up sample by sample, because most calls read few
+// pixels.
+template <int32_t kRows, class Use>
+void WithRows(const Input& in, int view, int32_t x, int32_t y, int32_t count, const Use& use) {
+  if (in.read_light == ReadPackedLight && x >= 0 && x + count <= in.width) {
+    const uint8_t* codes[kRows];
+    for (int32_t k = 0; k < kRows; ++k) {
+      codes[k] = ReadPackedCodes(in, view, x, Clamp(y + k, 0, in.height - 1), count, nullptr);
+    }
+    Prefetch(in, view, codes[kRows - 1]);
+    const int16_t* const light = in.transfer->light;
+    use([&](int32_t k, int32_t n) { return int32_t{light[codes[k][n]]}; });
+    return;
+  }
+  int16_t rows[kRows][3 * kMost];
+  for (int32_t k = 0; k < kRows; ++k) ReadRow(in, view, x, y + k, count, rows[k]);
+  use([&](int32_t k, int32_t n) { return int32_t{rows[k][n]}; });
+}
+
 // Interpolates the light at `count` < kMost positions along a row. The first position is (x, y),
 // kShiftBits.
 void InterpolateRow(const Input& in, int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
   constexpr uint32_t kHalf = 1 << (2 * kShiftBits - 1);
   const int32_t wx = x & (kShiftOne - 1), wy = y & (kShiftOne - 1);
   const int32_t column = x >> kShiftBits, row = y >> kShiftBits;
-  int16_t above[3 * kMost], below[3 * kMost];
   const int32_t pixels = count + (wx != 0 ? 1 : 0), next = wx != 0 ? 3 : 0;
-  ReadRow(in, view, column, row, pixels, above);
-  if (wy != 0) ReadRow(in, view, column, row + 1, pixels, below);
-  const int16_t* const lower = wy != 0 ? below : above;
-  for (int32_t n = 0; n < 3 * count; ++n) {
-    const int32_t upper_sum = above[n] * (kShiftOne - wx) + above[n + next] * wx;
-    const int32_t lower_sum = lower[n] * (kShiftOne - wx) + lower[n + next] * wx;
-    const auto sum = static_cast<uint32_t>(
-        Checked(ranges::kHolePixel, upper_sum * (kShiftOne - wy) + lower_sum * wy));
-    rgb[n] = static_cast<int16_t>((sum + kHalf) >> (2 * kShiftBits));
+  const auto interpolate = [&](const auto& light, int32_t k, int32_t n) {
+    return light(k, n) * (kShiftOne - wx) + light(k, n + next) * wx;
+  };
+  const auto store = [&](int32_t n, int32_t sum) {
+    const auto light = static_cast<uint32_t>(Checked(ranges::kHolePixel, sum));
+    rgb[n] = static_cast<int16_t>((light + kHalf) >> (2 * kShiftBits));
+  };
+  if (wy == 0) {
+    WithRows<1>(in, view, column, row, pixels, [&](const auto& light) {
+      for (int32_t n = 0; n < 3 * count; ++n) store(n, interpolate(light, 0, n) * kShiftOne);
+    });
+    return;
   }
+  WithRows<2>(in, view, column, row, pixels, [&](const auto& light) {
+    for (int32_t n = 0; n < 3 * count; ++n) {
+      store(n, interpolate(light, 0, n) * (kShiftOne - wy) + interpolate(light, 1, n) * wy);
+    }
+  });
 }
 
 // Returns tap k of a triangular filter. The taps are 1 2 1 for layer 1, and 1 2 3 4 3 2 1 for layer
@@ -62,14 +97,14 @@ template <int kLayer>
 void SubsampleRow(const Input& in, int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
   constexpr int32_t kReach = (1 << kLayer) - 1, kTaps = 2 * kReach + 1;
   const int32_t pixels = ((count - 1) << kLayer) + kTaps;
-  int16_t row[3 * kMost];
   int32_t down[3 * kMost];
-  for (int32_t n = 0; n < 3 * pixels; ++n) down[n] = 0;
-  for (int32_t dy = -kReach; dy <= kReach; ++dy) {
-    ReadRow(in, view, x - kReach, y + dy, pixels, row);
-    const int32_t tap = Tap(kLayer, dy);
-    for (int32_t n = 0; n < 3 * pixels; ++n) down[n] += tap * row[n];
-  }
+  WithRows<kTaps>(in, view, x - kReach, y - kReach, pixels, [&](const auto& light) {
+    for (int32_t n = 0; n < 3 * pixels; ++n) {
+      int32_t sum = 0;
+      for (int32_t k = 0; k < kTaps; ++k) sum += Tap(kLayer, k - kReach) * light(k, n);
+      down[n] = sum;
+    }
+  });
   for (int32_t p = 0; p < count; ++p, rgb += 3) {
     const int32_t* const from = down + ((3 * p) << kLayer);
     int32_t sums[3] = {0, 0, 0};
@@ -173,10 +208,7 @@ const uint8_t* ReadPackedCodes(const Input& in, int view, int32_t x, int32_t y, 
 
 void ReadPackedLight(const Input& in, int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
   const uint8_t* const codes = ReadPackedCodes(in, view, x, y, count, nullptr);
-  // Side views are read in short pieces, row by row. Hardware prefetchers do not predict the
-  // addresses of such short pieces. Prefetching the row after the next one saves 2 to 4 % of the
-  // time on scenes with 5 views.
-  if (view > 0) __builtin_prefetch(codes + 2 * in.images[view].strides[0]);
+  Prefetch(in, view, codes);
   if (count < 3) {
     for (int32_t n = 0; n < 3 * count; ++n) rgb[n] = in.transfer->light[codes[n]];
     return;

@@ -36,6 +36,7 @@ void StoreContent(const simd::CellMeasure& measure, int32_t slope_limit, int64_t
   const auto slope = static_cast<uint32_t>(Max(1, slope_limit));
   for (int along = 0; along < 2; ++along) {
     cell->slopes[along] = scaled(measure.slopes[along], slope);
+    if (measure.edges[along] == 0) continue;
     cell->edges[along] = scaled(measure.edges[along], 1);
     const int64_t gaps = measure.gaps[along] * step >> kStepBits;
     cell->gaps[along] = scaled(static_cast<uint32_t>(gaps), kRadiusOne);
@@ -88,85 +89,100 @@ class CellRow {
     }
   }
 
-  Cell Measure(int32_t column) const {
-    simd::CellMeasure found = Find(column * kCellSize);
-    if (input_.coverage != nullptr) AddThin(column * kCellSize, &found);
-    Cell cell = {};
-    cell.low = found.column_low[0];
-    cell.high = found.column_high[0];
-    for (int32_t k = 1; k < kCellSize; ++k) {
-      cell.low = found.column_low[k] < cell.low ? found.column_low[k] : cell.low;
-      cell.high = found.column_high[k] > cell.high ? found.column_high[k] : cell.high;
-    }
+  // Writes the measure of a cell to `cell`, which is zero.
+  void Measure(int32_t column, Cell* cell) const {
+    const int32_t x = column * kCellSize;
+    Pixels pixels;
+    LoadPixels(x, &pixels);
+    simd::CellMeasure found;
+    kernels_.MeasureCell(pixels.rows, pixels.column, limits_, &found);
+    const CoverageTile* const thin = input_.coverage != nullptr ? ThinTile(x) : nullptr;
+    if (thin != nullptr) AddThin(*thin, &found);
+    cell->low = found.low;
+    cell->high = found.high;
     // The SIMD kernel measures distances from a focus that is clamped to int16. A focus outside
     // int16 lies on one side of all disparities, so the clamped part of the distance is added.
     const int32_t focus = scale_.focus.far;
     const int32_t nearest = found.nearest + Abs(focus - near_focus_);
-    const int32_t farthest = Farthest(cell.low, cell.high, focus);
-    cell.r_min = static_cast<uint16_t>(scale_.Radius(nearest));
-    cell.r_max = static_cast<uint16_t>(scale_.RadiusAbove(farthest));
-    int32_t shown = cell.r_min;
+    const int32_t farthest = Farthest(found.low, found.high, focus);
+    const int32_t r_min = scale_.Radius(nearest), r_max = scale_.RadiusAbove(farthest);
+    cell->r_min = static_cast<uint16_t>(r_min);
+    cell->r_max = static_cast<uint16_t>(r_max);
+    int32_t shown = r_min;
     if (found.edge_low <= found.edge_high) {
       const int32_t sharpest = Abs(focus - Clamp(focus, found.edge_low, found.edge_high));
       shown = Min(shown, scale_.Radius(sharpest));
-      cell.has_edge = 1;
+      cell->has_edge = 1;
     }
-    cell.r_shown = static_cast<uint16_t>(shown) & 0x7FFF;
-    const int32_t reach = ReachOf(cell.r_max);
+    cell->r_shown = static_cast<uint16_t>(shown) & 0x7FFF;
+    const int32_t reach = ReachOf(r_max);
     if (reach == ReachOf(scale_.RadiusAbove(nearest))) {
-      StoreSides(reach, &cell);
+      StoreSides(reach, cell);
     } else {
-      MeasureSides(scale_, found.column_low, found.column_high, kLeft, kRight, &cell);
-      MeasureSides(scale_, found.row_low, found.row_high, kTop, kBottom, &cell);
+      simd::CellLines lines;
+      kernels_.MeasureLines(pixels.rows, pixels.column, &lines);
+      if (thin != nullptr) WidenLines(*thin, &lines);
+      MeasureSides(scale_, lines.column_low, lines.column_high, kLeft, kRight, cell);
+      MeasureSides(scale_, lines.row_low, lines.row_high, kTop, kBottom, cell);
     }
-    StoreContent(found, limits_.slope_limit, scale_.step, &cell);
-    return cell;
+    StoreContent(found, limits_.slope_limit, scale_.step, cell);
   }
 
  private:
   static constexpr int32_t kRows = kCellSize + 2;
 
-  // Measures the disparities without the range in focus of the cell at column x of the picture.
-  // Pixels outside the picture repeat its edge.
-  simd::CellMeasure Find(int32_t x) const {
-    const int16_t* rows[kRows];
+  // Disparities without the range in focus of a cell and its neighbours, which begin at `column` of
+  // the rows.
+  struct Pixels {
+    const int16_t* const* rows;
+    size_t column;
+    const int16_t* copied_rows[kRows];
     int16_t copies[kRows][kRows];
-    if (x > 0 && x + kCellSize < input_.width && scale_.focus.IsSingle()) {
-      for (int32_t k = 0; k < kRows; ++k) rows[k] = rows_[k] + x;
-    } else {
-      for (int32_t k = 0; k < kRows; ++k) {
-        for (int32_t column = 0; column < kRows; ++column) {
-          const int32_t from = Clamp(x + column - 1, 0, input_.width - 1);
-          copies[k][column] = scale_.focus.WithoutRange(rows_[k][from]);
-        }
-        rows[k] = copies[k] + 1;
+  };
+
+  // Loads the cell at column x of the picture. Pixels outside the picture repeat its edge.
+  void LoadPixels(int32_t x, Pixels* pixels) const {
+    pixels->rows = rows_;
+    pixels->column = static_cast<size_t>(x);
+    if (x > 0 && x + kCellSize < input_.width && scale_.focus.IsSingle()) return;
+    for (int32_t k = 0; k < kRows; ++k) {
+      for (int32_t column = 0; column < kRows; ++column) {
+        const int32_t from = Clamp(x + column - 1, 0, input_.width - 1);
+        pixels->copies[k][column] = scale_.focus.WithoutRange(rows_[k][from]);
       }
+      pixels->copied_rows[k] = pixels->copies[k];
     }
-    simd::CellMeasure measure;
-    kernels_.MeasureCell(rows, limits_, &measure);
-    return measure;
+    pixels->rows = pixels->copied_rows;
+    pixels->column = 1;
+  }
+
+  // Returns the tile of the coverage at column x of the picture if it has thin structures,
+  // otherwise null.
+  const CoverageTile* ThinTile(int32_t x) const {
+    const CoverageTile& tile = input_.coverage->Tile(x / kCoverageTile, y_ / kCoverageTile);
+    return tile.thin == 0 || tile.low > tile.high ? nullptr : &tile;
+  }
+
+  // Adds the disparities of thin structures to the range of disparities [*low, *high].
+  void Widen(const CoverageTile& thin, int16_t* low, int16_t* high) const {
+    *low = static_cast<int16_t>(Min(*low, scale_.focus.WithoutRange(thin.low)));
+    *high = static_cast<int16_t>(Max(*high, scale_.focus.WithoutRange(thin.high)));
   }
 
   // A cell with thin structures contains a near and a far surface, and therefore a depth edge.
-  void AddThin(int32_t x, simd::CellMeasure* found) const {
-    const CoverageMap& map = *input_.coverage;
-    const int32_t column = x / kCoverageTile, row = y_ / kCoverageTile;
-    const CoverageTile& tile = map.Tile(column, row);
-    if (tile.thin == 0 || tile.low > tile.high) return;
-    const int16_t far = scale_.focus.WithoutRange(tile.low);
-    const int16_t near = scale_.focus.WithoutRange(tile.high);
-    const auto widen = [&](int16_t* low, int16_t* high) {
-      *low = far < *low ? far : *low;
-      *high = near > *high ? near : *high;
-    };
-    for (int32_t k = 0; k < kCellSize; ++k) {
-      widen(&found->column_low[k], &found->column_high[k]);
-      widen(&found->row_low[k], &found->row_high[k]);
+  void AddThin(const CoverageTile& thin, simd::CellMeasure* found) const {
+    Widen(thin, &found->low, &found->high);
+    Widen(thin, &found->edge_low, &found->edge_high);
+    for (const int16_t of_thin : {thin.low, thin.high}) {
+      const int32_t distance = Abs(scale_.focus.WithoutRange(of_thin) - near_focus_);
+      found->nearest = static_cast<uint16_t>(Min(found->nearest, Min(distance, UINT16_MAX)));
     }
-    widen(&found->edge_low, &found->edge_high);
-    for (const int32_t disparity : {far, near}) {
-      found->nearest =
-          static_cast<uint16_t>(Min(found->nearest, Min(Abs(disparity - near_focus_), UINT16_MAX)));
+  }
+
+  void WidenLines(const CoverageTile& thin, simd::CellLines* lines) const {
+    for (int32_t k = 0; k < kCellSize; ++k) {
+      Widen(thin, &lines->column_low[k], &lines->column_high[k]);
+      Widen(thin, &lines->row_low[k], &lines->row_high[k]);
     }
   }
 
@@ -200,7 +216,8 @@ void MeasureCells(const simd::Kernels& kernels, const Input& input, const BlurSc
                   int32_t row, const Range& columns, Cell* cells) {
   const CellRow measure(kernels, input, scale, row);
   for (int32_t column = columns.first; column < columns.last; ++column) {
-    *cells++ = measure.Measure(column);
+    *cells = {};
+    measure.Measure(column, cells++);
   }
 }
 

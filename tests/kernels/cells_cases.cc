@@ -34,7 +34,8 @@ std::vector<int16_t> CellDisparities(size_t count, Draw* draw) {
 // padding between fields is not compared.
 template <class Take>
 void ForFields(const CellMeasure& m, const Take& take) {
-  for (const auto* ends : {m.column_low, m.column_high, m.row_low, m.row_high}) take(ends, 8);
+  take(&m.low, 1);
+  take(&m.high, 1);
   take(&m.nearest, 1);
   take(&m.edge_low, 1);
   take(&m.edge_high, 1);
@@ -43,16 +44,23 @@ void ForFields(const CellMeasure& m, const Take& take) {
 
 }  // namespace
 
-void MeasureCell(Draw* draw, KernelCall* call) {
-  const size_t cells = draw->Size(1, 3, kTimedSamples / 64);  // in one row
+namespace {
+
+// Makes the rows of `cells` adjacent cells, and their neighbours.
+const int16_t* const* CellRows(size_t cells, Draw* draw, KernelCall* call) {
   const size_t width = 8 * cells + 2, stride = width + draw->Size(0, 9, 0);
   const int16_t* in = call->Input("disparity", CellDisparities(9 * stride + width, draw), kPadding);
   call->IgnoreRows(in + width, 9, stride, stride - width);
-  std::vector<const int16_t*> all_rows;
-  for (size_t n = 0; n < 10 * cells; ++n) {
-    all_rows.push_back(in + 1 + n % 10 * stride + 8 * (n / 10));
-  }
-  const int16_t* const* rows = call->Input("rows", all_rows);
+  std::vector<const int16_t*> rows;
+  for (size_t n = 0; n < 10; ++n) rows.push_back(in + n * stride);
+  return call->Input("rows", rows);
+}
+
+}  // namespace
+
+void MeasureCell(Draw* draw, KernelCall* call) {
+  const size_t cells = draw->Size(1, 3, kTimedSamples / 64);  // in one row
+  const int16_t* const* rows = CellRows(cells, draw, call);
   const CellLimits limits = DrawCellLimits(draw);
   auto* measures = call->Output<CellMeasure>("measure", cells);
   for (size_t cell = 0; cell < cells; ++cell) {
@@ -61,7 +69,16 @@ void MeasureCell(Draw* draw, KernelCall* call) {
               [&](const auto* first, int count) { call->Result(first, size_t(count)); });
   }
   call->RunsEach(cells, [=](const Kernels& kernels, size_t cell) {
-    kernels.MeasureCell(rows + 10 * cell, limits, &measures[cell]);
+    kernels.MeasureCell(rows, 1 + 8 * cell, limits, &measures[cell]);
+  });
+}
+
+void MeasureLines(Draw* draw, KernelCall* call) {
+  const size_t cells = draw->Size(1, 3, kTimedSamples / 64);  // in one row
+  const int16_t* const* rows = CellRows(cells, draw, call);
+  auto* lines = call->Results<CellLines>("lines", cells);
+  call->RunsEach(cells, [=](const Kernels& kernels, size_t cell) {
+    kernels.MeasureLines(rows, 1 + 8 * cell, &lines[cell]);
   });
 }
 
