@@ -54,6 +54,12 @@ class RowMarks {
     if (all_covered_ > kAhead) near[-kAhead] = kCoveredNear;
   }
 
+  // Adds a row that the slice does not cover.
+  HWY_INLINE void AddEmpty() {
+    shown_ = false;
+    all_covered_ = 0;
+  }
+
  private:
   static constexpr int kAhead = kRowsAhead;
   bool shown_ = false;   // True if the slice covers a pixel of the last row.
@@ -76,8 +82,8 @@ HWY_INLINE void CallWithTaps(int taps, const Act& act) {
 // of two rows are slower.
 template <int kTaps>
 HWY_INLINE void ShiftRows(const int16_t* in, size_t in_plane, const SliceOffset& offset,
-                          size_t rows, size_t plane, int16_t* HWY_RESTRICT out,
-                          int8_t* HWY_RESTRICT near) {
+                          const SliceCover* cover, uint64_t groups, size_t rows, size_t plane,
+                          int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near) {
   const LanesTag d;
   const size_t lanes = hn::Lanes(d);
   const auto inside = hn::Set(d, offset.inside), edge = hn::Set(d, offset.edge);
@@ -85,6 +91,13 @@ HWY_INLINE void ShiftRows(const int16_t* in, size_t in_plane, const SliceOffset&
   const int16_t* const first_row = in + offset.whole;
   RowMarks marks;
   for (size_t row = 0; row < rows; ++row, out += kSliceLanes) {
+    if ((cover[row].some & groups) == 0) {
+      for (size_t n = 0; n < kSliceLanes; n += lanes) {
+        for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d), d, out + c * plane + n);
+      }
+      marks.AddEmpty();
+      continue;
+    }
     auto most = hn::Zero(d), least = hn::Set(d, kSliceOne);
     for (size_t n = 0; n < kSliceLanes; n += lanes) {
       const int16_t* HWY_RESTRICT from = first_row + row * 4 * in_plane + n;
@@ -119,10 +132,11 @@ HWY_INLINE void ShiftRows(const int16_t* in, size_t in_plane, const SliceOffset&
   }
 }
 
-inline void ShiftSlice(const int16_t* in, size_t in_plane, const SliceOffset& offset, size_t rows,
-                       size_t plane, int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near) {
+inline void ShiftSlice(const int16_t* in, size_t in_plane, const SliceOffset& offset,
+                       const SliceCover* cover, uint64_t groups, size_t rows, size_t plane,
+                       int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near) {
   CallWithTaps(offset.taps, [&](auto taps) HWY_ATTR {
-    ShiftRows<decltype(taps)::value>(in, in_plane, offset, rows, plane, out, near);
+    ShiftRows<decltype(taps)::value>(in, in_plane, offset, cover, groups, rows, plane, out, near);
   });
 }
 

@@ -102,15 +102,26 @@ inline int16_t SliceShare(int16_t covered, int16_t light) {
 // `plane` samples apart. Sample out[n] is interpolated between in[n + whole] and the following
 // samples. Each product is rounded half up.
 //
+// Row n of `in` is empty, and is not read, if the slice covers none of the groups `groups` in
+// cover[n]. These groups contain all samples that the kernel reads of the other rows.
+//
 // near[row] is the mark of a row; kRowsAhead more marks precede near[0]. Before the call, all marks
 // must be at least kNothingNear. The kernel sets the marks of rows in which the slice covers a
 // pixel, and the marks of the kRowsAhead rows before such a row. The marks of all other rows are
 // not changed.
 STARFOCUS_REFERENCE void ShiftSlice(const int16_t* in, size_t in_plane, const SliceOffset& offset,
-                                    size_t rows, size_t plane, int16_t* out, int8_t* near) {
+                                    const SliceCover* cover, uint64_t groups, size_t rows,
+                                    size_t plane, int16_t* out, int8_t* near) {
   // Number of consecutive fully covered rows up to and including the current row.
   size_t all_covered = 0;
   for (size_t row = 0; row < rows; ++row) {
+    if ((cover[row].some & groups) == 0) {
+      for (size_t c = 0; c < 4; ++c) {
+        std::fill_n(out + c * plane + row * kSliceLanes, kSliceLanes, int16_t{0});
+      }
+      all_covered = 0;
+      continue;
+    }
     const int16_t* first = in + offset.whole + 4 * row * in_plane;
     const int16_t* covered = first + 3 * in_plane;
     for (size_t c = 0; c < 4; ++c) {

@@ -214,7 +214,8 @@ class Strip {
     std::memset(near - kRowsAhead, simd::kNothingNear, rows + simd::kRowsAhead);
     const int16_t* from =
         placed.samples + static_cast<size_t>(first + placed.reach) * 4 * placed.plane;
-    kernels_.ShiftSlice(from + first_->x + placed.reach, placed.plane, stack_.Offset(k, i), rows,
+    kernels_.ShiftSlice(from + first_->x + placed.reach, placed.plane, stack_.Offset(k, i),
+                        placed.cover + first + placed.reach, StripsOf(placed, first_->x), rows,
                         shown_[k].plane, shown_[k].samples + first * simd::kStripColumns, near);
   }
 

@@ -145,11 +145,24 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
   const int16_t* in = call->Input("in", samples) + first;
   const SliceOffset offset = Offset(draw->Int(-3, 3), draw);
   auto* out = call->OutputRows<int16_t>("out", 4, plane, rows * kSliceLanes);
+  // Some rows count as empty in the groups of the strip, and are not read.
+  const auto groups = uint64_t(draw->Int(1, 7)) << draw->Int(0, 61);
+  const auto covers = Filled<SliceCover>(rows, [&] {
+    return SliceCover{draw->Rarely(4) ? ~groups : ~uint64_t{0}, 0};
+  });
+  const SliceCover* cover = call->Input("cover", covers);
+  for (size_t row = 0; row < rows; ++row) {
+    call->Ignore(&cover[row].all, 1);
+    if ((cover[row].some & groups) == 0) {
+      const size_t samples_of_row = std::min(4 * in_plane, samples.size() - 4 * row * in_plane);
+      call->Ignore(in - first + 4 * row * in_plane, samples_of_row);
+    }
+  }
   auto* near = call->Results<int8_t>("near", kRowsAhead + rows);
   constexpr int8_t kLeft = 9;
   std::fill_n(near, kRowsAhead + rows, kLeft);
-  call->Calls(&Kernels::ShiftSlice, in - offset.whole, in_plane, offset, rows, plane, out,
-              near + kRowsAhead);
+  call->Calls(&Kernels::ShiftSlice, in - offset.whole, in_plane, offset, cover, groups, rows, plane,
+              out, near + kRowsAhead);
   call->is_right = [=](uint64_t, Met* met) {
     const int8_t *begin = near, *end = near + kRowsAhead + rows;
     (*met)["covered"] += std::count(begin, end, kCoveredNear);
