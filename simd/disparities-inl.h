@@ -38,7 +38,8 @@ HWY_INLINE DisparityRange RangeOfColumns(const int16_t* HWY_RESTRICT disparity, 
     const auto counted = hn::FirstN(d16, count - n);
     const int16_t* at = disparity + n;
     for (size_t row = 0; row < rows; ++row, at += stride) {
-      const auto value = hn::IfThenElse(counted, hn::LoadU(d16, at), none);
+      auto value = hn::LoadU(d16, at);
+      if (count < kSliceLanes) value = hn::IfThenElse(counted, value, none);
       below = hn::Min(below, hn::Sub(value, one));
       high = hn::Max(high, value);
     }

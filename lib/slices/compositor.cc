@@ -46,7 +46,7 @@ class Batch {
 
  private:
   // Makes the slices of the part and stores them contiguously in the pool. Returns a pointer to the
-  // memory after the slices, which is scratch memory for filtering a plane.
+  // memory after the slices, which is scratch memory for filtering.
   int16_t* PlaceSlices() {
     const Rect rect = {stack_.inner.x + rect_.x, stack_.inner.y + rect_.y, rect_.width,
                        rect_.height};
@@ -62,8 +62,8 @@ class Batch {
     }
     int16_t* const behind = reinterpret_cast<int16_t*>(next);
     for (int32_t k = 0; k < stack_.count; ++k) {
-      FillSlice(*job_.input->kernels, scratch_.surfaces, stack_.ranges, stack_.slices[k], rect,
-                behind, planes_[k]);
+      FillSlice(*job_.input->kernels, scratch_.surfaces, stack_.slices[k], rect, behind,
+                planes_[k]);
     }
     return behind;
   }
@@ -182,6 +182,7 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
   }
   InpaintHidden(*job.input->kernels, job.layer, scratch->fill, &scratch->surfaces);
   RemoveFocusRange(job.grid->focus, &scratch->surfaces);
+  FindStripRanges(*job.input->kernels, scratch->surfaces);
   return inner;
 }
 
@@ -191,7 +192,7 @@ void FindStack(const RenderJob& job, const Rect& bucket, const CompositorScratch
   const Rect in_surfaces = {stack->inner.x + bucket.x, stack->inner.y + bucket.y, bucket.width,
                             bucket.height};
   stack->count = FindSlices(*job.input->kernels, scratch.surfaces, *job.grid, SliceRuleOf(job),
-                            in_surfaces, stack->slices, stack->ranges);
+                            in_surfaces, stack->slices);
   FindOffsets(*job.grid, stack->slices, stack->count, scratch.offsets);
   stack->offsets = scratch.offsets;
 }
@@ -208,10 +209,9 @@ size_t PoolBytes(const SliceStack& stack, int32_t columns, int32_t rows) {
     const auto reach = static_cast<size_t>(placed.reach);
     slices += SliceBytes(width, height, reach);
     strips += StripBytes(height, reach);
-    const size_t plane = FilteredBytes(width, height, reach);
-    if (plane > filtered) filtered = plane;
+    filtered = Max(filtered, FilteredBytes(width, reach));
   }
-  return slices + (filtered > strips ? filtered : strips);
+  return slices + Max(filtered, strips);
 }
 
 // Returns the largest size of batches whose slices fit into the pool. The function first
@@ -349,6 +349,7 @@ void TakeScratch(const FullConfig& config, size_t extended, size_t max_n, Arena*
     };
     surfaces.disparity[k] = take(area);
     surfaces.rgb[k] = take(3 * area);
+    surfaces.ranges[k] = arena->Take<simd::DisparityRange>(RangeCount(extended));
   }
   surfaces.share = arena->Take<uint8_t>(area);
   surfaces.hiding = arena->Take<uint64_t>(extended);

@@ -33,7 +33,6 @@ struct SliceStack {
   Rect inner;  // rectangle to refocus, which contains the bucket, in pixels of the surfaces
   int32_t count;
   Slice slices[kMaxSlices];
-  simd::DisparityRange ranges[kMaxRanges];  // Disparities of all surfaces in each kRangeRows rows.
   const simd::SliceOffset* offsets;  // One offset per slice, for each column -N to N of views.
 
   // Returns the offset of slice k along x in all views (i, j), which is also the offset along y in
@@ -97,11 +96,11 @@ inline constexpr size_t kAreaBytes = 33;
 
 // Returns the smallest permitted size of the pool in bytes. The pool must hold the slices of the
 // smallest batch and the strips of these slices, for blur radii up to `max_blur` pixels. The
-// filter of a plane uses the memory of the strips, and may require more memory than the strip of
+// filter of a slice uses the memory of the strips, and may require more memory than the strip of
 // one slice.
 constexpr size_t LeastPool(double max_blur) {
   const auto reach = static_cast<size_t>(LargestSliceReach(max_blur));
-  const size_t filtered = FilteredBytes(kLeastColumns, kLeastRows, reach);
+  const size_t filtered = FilteredBytes(kLeastColumns, reach);
   const size_t strip = StripBytes(kLeastRows, reach);
   return kAreaBytes * static_cast<size_t>(MostSliceArea(max_blur)) +
          (filtered > strip ? filtered - strip : 0);

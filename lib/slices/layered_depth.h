@@ -27,6 +27,15 @@ inline constexpr int16_t kLeastCopy = 2, kMostCopy = kDepthEdge;
 // Largest width of surfaces, in strips of kSliceLanes columns.
 inline constexpr int32_t kMaxStrips = 64;
 
+// Number of rows that have one range of disparities in each strip.
+inline constexpr int32_t kRangeRows = 8;
+
+// Returns the number of ranges of a surface with up to `side` columns and rows.
+constexpr size_t RangeCount(size_t side) {
+  constexpr auto kRows = static_cast<size_t>(kRangeRows);
+  return (side + kRows - 1) / kRows * (simd::SliceSamples(side) / simd::kSliceLanes);
+}
+
 // The surfaces of a field. Surface 0, the nearest surface, is a copy of the field. Each surface
 // consists of rows of `stride` pixels, followed by kSliceLanes more pixels. Colours are in three
 // planes, `plane` samples apart.
@@ -53,17 +62,18 @@ struct LayeredDepth {
   uint16_t* sources[simd::kSurfaces - 1] = {};
   bool repeats = false;        // True if the colour of any pixel is repeated.
   uint64_t* hiding = nullptr;  // One element per row: bit k is set if strip k has a hidden surface.
+  // Range of the disparities of each surface in each strip, over kRangeRows rows: RangesAt.
+  simd::DisparityRange* ranges[simd::kSurfaces] = {};
 
   size_t At(int32_t x, int32_t y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(stride) + static_cast<size_t>(x);
   }
-};
 
-// Number of rows in a group of rows, and largest number of ranges of the surfaces. For each
-// kRangeRows rows, FindSlices finds the range of the disparities of all surfaces around a bucket.
-inline constexpr int32_t kRangeRows = 8;
-inline constexpr int32_t kMaxRanges =
-    kMaxStrips * static_cast<int32_t>(simd::kSliceLanes) / kRangeRows;
+  // Returns the ranges of a surface in the strips of row y, from the strip of column x on.
+  simd::DisparityRange* RangesAt(int surface, int32_t x, int32_t y) const {
+    return ranges[surface] + At(x, y / kRangeRows) / simd::kSliceLanes;
+  }
+};
 
 // Extends *all to include `range`.
 inline void Widen(const simd::DisparityRange& range, simd::DisparityRange* all) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/slices/slice_plane.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace starfocus {
@@ -125,86 +126,101 @@ int32_t InnerScale(const uint32_t* weights, const int32_t* shifts, int32_t n) {
   return high;
 }
 
-// Clears the samples after the first `width` samples of each plane of a row; at least kStripColumns
-// samples follow. The last two groups overlap, so that every call of memset has one constant length
-// and the compiler can inline the call.
-void ClearTail(size_t width, size_t plane, int16_t* row) {
-  for (size_t c = 0; c < 4; ++c, row += plane) {
-    int16_t *const last = row + plane - kStripColumns, *group = row + width;
-    for (; group < last; group += kStripColumns)
-      std::memset(group, 0, kStripColumns * sizeof(*group));
-    std::memset(last, 0, kStripColumns * sizeof(*last));
-  }
-}
-
-// Copies the slice's pixels of one row of the surfaces. Repeats the outermost pixels beyond the
-// left and right ends of the surfaces. Clears the samples after the end of the row.
-simd::SliceCover SelectRow(const simd::Kernels& kernels, const LayeredDepth& surfaces,
-                           const Slice& slice, const Rect& from_row, size_t plane, int16_t* row) {
-  const int32_t x = from_row.x, y = from_row.y, width = from_row.width;
-  const int32_t first = Max(0, -x), last = Min(width, surfaces.width - x);
-  const size_t at = surfaces.At(x + first, y);
-  simd::SurfaceRow from;
-  from.plane = surfaces.plane;
-  from.share = surfaces.share + at;
-  const uint64_t hiding = surfaces.hiding[y] >> (x + first) / kStripColumns;
-  from.hiding = (x + first) % kStripColumns == 0 ? hiding : hiding | hiding >> 1;
+// Returns the groups of kSliceLanes pixels that may contain a pixel of the slice in row y, as in
+// SliceCover, from the strips' ranges. The groups are in the columns [columns.first, columns.last).
+// Each group contains pixels of one or two strips.
+uint64_t FindGroups(const LayeredDepth& surfaces, const Slice& slice, const Range& columns,
+                    int32_t y) {
+  const int32_t strips = (columns.last - 1) / kStripColumns - columns.first / kStripColumns + 1;
+  uint64_t within = 0;
   for (int k = 0; k < simd::kSurfaces; ++k) {
-    from.disparity[k] = surfaces.disparity[k] + at;
-    from.rgb[k] = surfaces.rgb[k] + at;
-  }
-  const simd::SliceCover cover =
-      kernels.SelectSlice(from, slice.low, slice.high, slice.overlap,
-                          static_cast<size_t>(last - first), plane, row + first);
-  ClearTail(static_cast<size_t>(width), plane, row);
-  if (last - first == width) return cover;
-  for (int c = 0; c < 4; ++c, row += plane) {
-    for (int32_t k = 0; k < first; ++k) row[k] = row[first];
-    for (int32_t k = last; k < width; ++k) row[k] = row[last - 1];
-  }
-  // Few rows are padded, so every group of a padded row may simply count as partly covered.
-  return {~uint64_t{0}, 0};
-}
-
-// Extends the coverage bits of each row by the `reach` pixels that the filter spreads.
-void SpreadCover(int32_t reach, const SlicePlane& placed) {
-  constexpr int32_t kMost = simd::kMaxSpread;
-  simd::SliceCover before[kMost] = {};  // unextended bits of the rows above the current row
-  for (int32_t row = 0; row < placed.rows; ++row) {
-    const simd::SliceCover here = placed.cover[row];
-    uint64_t some = here.some;
-    for (int32_t k = 1; k <= reach; ++k) {
-      some |= before[k - 1].some;
-      if (row + k < placed.rows) some |= placed.cover[row + k].some;
+    const simd::DisparityRange* const ranges = surfaces.RangesAt(k, columns.first, y);
+    for (int32_t strip = 0; strip < strips; ++strip) {
+      const simd::DisparityRange& range = ranges[strip];
+      const bool meets = (range.low <= slice.overlap) & (range.high >= slice.low);
+      within |= uint64_t{meets} << strip;
     }
-    for (int32_t k = kMost - 1; k > 0; --k) before[k] = before[k - 1];
-    before[0] = here;
-    placed.cover[row].some = some | some << 1 | some >> 1;
+  }
+  if (columns.first % kStripColumns != 0) within |= within >> 1;
+  return within & ((uint64_t{2} << (columns.count() - 1) / kStripColumns) - 1);
+}
+
+// Repeats the outermost pixels of a row beyond `columns`, which are the columns of the row that lie
+// in the surfaces. Clears the samples after the row, which has `width` columns.
+void PadRow(const Range& columns, int32_t width, size_t plane, int16_t* row) {
+  for (int c = 0; c < 4; ++c, row += plane) {
+    std::fill(row, row + columns.first, row[columns.first]);
+    std::fill(row + columns.last, row + width, row[columns.last - 1]);
+    std::fill(row + width, row + plane, int16_t{0});
   }
 }
 
-// Filters a slice for a wide subaperture, one plane at a time. The filter along rows writes the
-// plane to `filtered`, and the filter along columns writes the result back to the plane.
+// Copies the slice's pixels of `rect`, which is in pixels of the surfaces and has at most
+// kRangeRows rows, to the rows from `first` on. The pixels of the slice are in `groups`
+// (FindGroups).
+void SelectRows(const simd::Kernels& kernels, const LayeredDepth& surfaces, const Slice& slice,
+                uint64_t groups, const Rect& rect, int32_t first, const SlicePlane& placed) {
+  const Range columns = {Max(0, -rect.x), Min(rect.width, surfaces.width - rect.x)};
+  const bool is_padded = columns.count() < rect.width;
+  const int32_t x = rect.x + columns.first;
+  const size_t at = surfaces.At(x, rect.y), row_samples = 4 * placed.plane;
+  simd::SurfaceRows from;
+  from.first.plane = surfaces.plane;
+  from.first.share = surfaces.share + at;
+  for (int k = 0; k < simd::kSurfaces; ++k) {
+    from.first.disparity[k] = surfaces.disparity[k] + at;
+    from.first.rgb[k] = surfaces.rgb[k] + at;
+  }
+  from.hiding = surfaces.hiding + rect.y;
+  from.column = static_cast<size_t>(x);
+  from.stride = static_cast<size_t>(surfaces.stride);
+  from.rows = static_cast<size_t>(rect.height);
+  from.count = static_cast<size_t>(columns.count());
+  int16_t* row = placed.samples + static_cast<size_t>(first) * row_samples;
+  simd::SliceCover* const cover = placed.cover + first;
+  kernels.SelectSlice(from, slice.low, slice.high, slice.overlap, groups,
+                      is_padded ? simd::SliceSamples(from.count) : placed.plane, placed.plane,
+                      row + columns.first, cover);
+  for (int32_t k = 0; is_padded && k < rect.height; ++k, row += row_samples) {
+    if (cover[k].some == 0) continue;
+    PadRow(columns, rect.width, placed.plane, row);
+    // Few rows are padded, so every group of a padded row may simply count as partly covered.
+    cover[k] = {~uint64_t{0}, 0};
+  }
+}
+
+// Filters a slice for a wide subaperture. The filter along rows writes the last kFilteredRows rows
+// to `filtered`, and the filter along columns writes the result back to the slice. Beyond the first
+// and the last row, the slice counts as empty. Extends the coverage bits by the pixels that the
+// filter spreads.
 void Spread(const simd::Kernels& kernels, int16_t* filtered, const SlicePlane& placed) {
   const simd::SliceTaps taps = TapsOf(placed.subaperture);
-  const size_t plane = placed.plane;
-  SpreadCover(taps.reach, placed);
-  for (size_t c = 0; c < 4; ++c) {
-    const auto sample = [&](int32_t row) {
-      return placed.samples + (4 * static_cast<size_t>(row) + c) * plane;
-    };
-    const auto along_row = [&](int32_t row) { return filtered + static_cast<size_t>(row) * plane; };
-    for (int32_t row = 0; row < placed.rows; ++row) {
-      if (placed.cover[row].some != 0) {
-        kernels.SpreadSlice(sample(row), 1, taps, plane, along_row(row));
-      } else {
-        std::memset(along_row(row), 0, plane * sizeof(*filtered));
-      }
+  const int32_t reach = taps.reach, last = 2 * reach;
+  const size_t count = 4 * placed.plane;  // samples of a row
+  const int16_t* rows[kFilteredRows];
+  uint64_t some[kFilteredRows] = {};  // unextended bits of the rows
+  for (int32_t row = -reach; row < placed.rows + reach; ++row) {
+    int16_t* const along_row =
+        filtered + static_cast<size_t>((row + reach) % kFilteredRows) * count;
+    for (int32_t k = 0; k < last; ++k) some[k] = some[k + 1];
+    some[last] = row >= 0 && row < placed.rows ? placed.cover[row].some : 0;
+    if (some[last] != 0) {
+      const int16_t* const first = placed.samples + static_cast<size_t>(row) * count - reach;
+      for (int32_t k = 0; k <= last; ++k) rows[k] = first + k;
+      kernels.SpreadSlice(rows, taps, count, along_row);
+    } else {
+      std::memset(along_row, 0, count * sizeof(*along_row));
     }
-    for (int32_t row = taps.reach; row < placed.rows - taps.reach; ++row) {
-      if (placed.cover[row].some == 0) continue;
-      kernels.SpreadSlice(along_row(row), static_cast<ptrdiff_t>(plane), taps, plane, sample(row));
+    if (row < reach) continue;
+    uint64_t any = 0;
+    for (int32_t k = 0; k <= last; ++k) {
+      any |= some[k];
+      rows[k] = filtered + static_cast<size_t>((row - reach + k) % kFilteredRows) * count;
     }
+    placed.cover[row - reach].some = any | any << 1 | any >> 1;
+    if (any == 0) continue;
+    kernels.SpreadSlice(rows, taps, count,
+                        placed.samples + static_cast<size_t>(row - reach) * count);
   }
 }
 
@@ -237,21 +253,20 @@ void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, Slice
   placed->plane = PlaneSamples(static_cast<size_t>(rect.width), static_cast<size_t>(placed->reach));
 }
 
-void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces,
-               const simd::DisparityRange* ranges, const Slice& slice, const Rect& rect,
-               int16_t* filtered, const SlicePlane& placed) {
+void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces, const Slice& slice,
+               const Rect& rect, int16_t* filtered, const SlicePlane& placed) {
   const int32_t x = rect.x - placed.reach, y = rect.y - placed.reach;
   const int32_t width = rect.width + 2 * placed.reach;
-  int16_t* samples = placed.samples;
-  for (int32_t row = 0; row < placed.rows; ++row, samples += 4 * placed.plane) {
-    const int32_t from = Clamp(y + row, 0, surfaces.height - 1);
-    const simd::DisparityRange& range = ranges[from / kRangeRows];
-    if (range.high < slice.low || range.low > slice.overlap) {
-      std::memset(samples, 0, 4 * placed.plane * sizeof(*samples));
-      placed.cover[row] = {0, 0};
+  const Range columns = {Max(x, 0), Min(x + width, surfaces.width)};
+  for (int32_t row = 0, rows; row < placed.rows; row += rows) {
+    // Rows beyond the first and the last row of the surfaces repeat this row.
+    const int32_t from = Clamp(y + row, 0, surfaces.height - 1), left = surfaces.height - from;
+    rows = from > y + row ? 1 : Min(kRangeRows - from % kRangeRows, Min(placed.rows - row, left));
+    const uint64_t groups = FindGroups(surfaces, slice, columns, from);
+    if (groups != 0) {
+      SelectRows(kernels, surfaces, slice, groups, {x, from, width, rows}, row, placed);
     } else {
-      placed.cover[row] =
-          SelectRow(kernels, surfaces, slice, {x, from, width, 1}, placed.plane, samples);
+      std::fill_n(placed.cover + row, rows, simd::SliceCover{0, 0});
     }
   }
   if (placed.subaperture > kBoxSubaperture) Spread(kernels, filtered, placed);

@@ -116,19 +116,22 @@ constexpr int32_t MostSliceArea(double blur) {
 inline constexpr int32_t kSliceBins = 2 * (64 << kDisparityBits) + 1;
 
 // Finds the slices of a bucket, ordered from the nearest to the farthest. The slices hold all
-// pixels of the surfaces that may splat into the bucket, which is in pixels of the surfaces. Also
-// finds the range of disparities in every kRangeRows rows of the surfaces, for FillSlice.
+// pixels of the surfaces that may splat into the bucket, which is in pixels of the surfaces.
 // Returns the number of slices, at most rule.most.
 int32_t FindSlices(const simd::Kernels& kernels, const LayeredDepth& surfaces, const ViewGrid& grid,
-                   const SliceRule& rule, const Rect& bucket, Slice* slices,
-                   simd::DisparityRange* ranges);
+                   const SliceRule& rule, const Rect& bucket, Slice* slices);
+
+// Finds the ranges of the disparities of all surfaces (LayeredDepth::ranges), which FindSlices and
+// FillSlice read.
+void FindStripRanges(const simd::Kernels& kernels, const LayeredDepth& surfaces);
 
 struct SlicePlane {
   int32_t reach = 0;  // Number of pixels that the slice extends beyond the rectangle on each side.
   int32_t rows = 0;   // Number of rows of the rectangle, plus `reach` rows above and below.
   size_t plane = 0;   // Distance between planes in samples; a row has four planes.
-  int32_t subaperture = 0;            // Width of a view's subaperture, kShiftBits.
-  int16_t* samples = nullptr;         // Samples of the first row.
+  int32_t subaperture = 0;  // Width of a view's subaperture, kShiftBits.
+  // Samples of the first row. Rows that the slice does not cover (`some` is 0) are not written.
+  int16_t* samples = nullptr;
   simd::SliceCover* cover = nullptr;  // Coverage bits of each row.
 };
 
@@ -144,15 +147,21 @@ constexpr size_t CoverBytes(size_t rows) {
   return (rows + kAligned - 1) / kAligned * kAligned * sizeof(simd::SliceCover);
 }
 
-// Returns the size in bytes of the buffer that holds one filtered plane of a slice.
-constexpr size_t FilteredBytes(size_t width, size_t height, size_t reach) {
-  return (height + 2 * reach) * PlaneSamples(width, reach) * sizeof(int16_t);
+// Returns the size in bytes of `rows` rows of a slice.
+constexpr size_t SliceRowBytes(size_t width, size_t rows, size_t reach) {
+  return 4 * rows * PlaneSamples(width, reach) * sizeof(int16_t);
+}
+
+// Number of filtered rows in the buffer of FillSlice, and size of this buffer in bytes.
+inline constexpr int32_t kFilteredRows = 2 * simd::kMaxSpread + 1;
+constexpr size_t FilteredBytes(size_t width, size_t reach) {
+  return SliceRowBytes(width, kFilteredRows, reach);
 }
 
 // Returns the size in bytes of a slice, including one SliceCover per row, and the samples that
 // filters read before and after the slice.
 constexpr size_t SliceBytes(size_t width, size_t height, size_t reach) {
-  return 4 * FilteredBytes(width, height, reach) + 2 * simd::kSliceLanes * sizeof(int16_t) +
+  return SliceRowBytes(width, height + 2 * reach, reach) + 2 * simd::kSliceLanes * sizeof(int16_t) +
          CoverBytes(height + 2 * reach);
 }
 
@@ -178,12 +187,11 @@ void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, Slice
 
 // Copies the slice's pixels in and around `rect`, which is in pixels of the surfaces. Repeats the
 // outermost pixels beyond the ends of the surfaces. For wide subapertures, the function also
-// applies the subaperture as a filter. `filtered` is scratch memory of FilteredBytes. Skips ranges
-// that contain no disparity of the slice. The caller sets the pointers `samples` and `cover` of
-// `placed`.
-void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces,
-               const simd::DisparityRange* ranges, const Slice& slice, const Rect& rect,
-               int16_t* filtered, const SlicePlane& placed);
+// applies the subaperture as a filter. `filtered` is scratch memory of FilteredBytes. Skips strips
+// whose ranges contain no disparity of the slice. The caller sets the pointers `samples` and
+// `cover` of `placed`.
+void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces, const Slice& slice,
+               const Rect& rect, int16_t* filtered, const SlicePlane& placed);
 
 // Returns the strips of a slice's row that some view shows in the strip at column `x` of the
 // rectangle. Bit k of the result stands for strip k of the row, as in SliceCover.

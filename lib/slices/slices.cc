@@ -12,17 +12,25 @@ namespace {
 // overlap and twice the overlap.
 constexpr int kOverlapParts = 10;
 
+// Calls act(rows) for each run of rows in [rows.first, rows.last) that have disparities of a
+// surface. Rows without hidden surfaces have only disparities of the first surface.
+template <class Act>
+void ForEachRun(const LayeredDepth& surfaces, int surface, const Range& rows, const Act& act) {
+  const auto has = [&](int32_t y) { return surface == 0 || surfaces.hiding[y] != 0; };
+  for (int32_t y = rows.first, end; y < rows.last; y = end) {
+    end = y + 1;
+    if (!has(y)) continue;
+    while (end < rows.last && has(end)) ++end;
+    act(Range{y, end});
+  }
+}
+
 // Finds the slices of a bucket from the disparities of the surfaces around the bucket.
 class SliceFinder {
  public:
   SliceFinder(const simd::Kernels& kernels, const LayeredDepth& surfaces, const ViewGrid& grid,
-              const SliceRule& rule, const Rect& bucket, simd::DisparityRange* ranges)
-      : kernels_(kernels),
-        surfaces_(surfaces),
-        grid_(grid),
-        rule_(rule),
-        bucket_(bucket),
-        ranges_(ranges) {
+              const SliceRule& rule, const Rect& bucket)
+      : kernels_(kernels), surfaces_(surfaces), grid_(grid), rule_(rule), bucket_(bucket) {
     const int64_t step = grid_.step > 0 ? grid_.step : 1;
     constexpr int kBits = kStepBits + kDisparityBits - kShiftBits;
     range_ = static_cast<int32_t>(Limited((int64_t{rule.range} << kBits) / step));
@@ -69,36 +77,21 @@ class SliceFinder {
     around_.height = Min(bucket_.y + bucket_.height + reach, surfaces_.height) - around_.y;
   }
 
-  // Marks the bins of all pixels of a surface that may splat into the bucket. One iteration
-  // processes at most kRangeRows rows. Rows without hidden surfaces are skipped for all surfaces
-  // but the first.
+  // Marks the bins of all pixels of a surface that may splat into the bucket.
   void Mark(int surface) {
-    const auto has = [&](int32_t y) { return surface == 0 || surfaces_.hiding[y] != 0; };
-    const int32_t last = around_.y + around_.height;
-    for (int32_t y = around_.y, end; y < last; y = end) {
-      end = y + 1;
-      if (surface == 0 && y % kRangeRows == 0) ranges_[y / kRangeRows] = {INT16_MAX, INT16_MIN};
-      if (!has(y)) continue;
-      while (end % kRangeRows != 0 && end < last && has(end)) ++end;
-      MarkRows(surface, y, end);
-    }
-  }
-
-  void MarkRows(int surface, int32_t y, int32_t end) {
-    simd::DisparityRange ranges[kMaxStrips];
-    kernels_.FindRanges(surfaces_.disparity[surface] + surfaces_.At(around_.x, y),
-                        static_cast<size_t>(surfaces_.stride), static_cast<size_t>(end - y),
-                        static_cast<size_t>(around_.width), ranges);
-    for (int32_t x = 0; x < around_.width; x += simd::kStripColumns) {
-      const simd::DisparityRange& range = ranges[x / simd::kStripColumns];
-      Widen(range, &ranges_[y / kRangeRows]);
-      const Rect pixels = {around_.x + x, y, Min(simd::kStripColumns, around_.width - x), end - y};
-      const int32_t least = surfaces_.least_blur[Beyond(pixels)];
-      if (least == 0) {
-        MarkPixels(surface, pixels, range.low, range.high);
-      } else {  // skips pixels that are too sharp to reach the bucket
-        MarkPixels(surface, pixels, range.low, Min(range.high, grid_.focus.far - least));
-        MarkPixels(surface, pixels, Max(range.low, grid_.focus.far + least), range.high);
+    const int32_t right = around_.x + around_.width, last = around_.y + around_.height;
+    for (int32_t y = around_.y; y < last; y += kRangeRows) {
+      const simd::DisparityRange* range = surfaces_.RangesAt(surface, around_.x, y);
+      for (int32_t x = around_.x; x < right; x += simd::kStripColumns, ++range) {
+        if (range->low > range->high) continue;
+        const Rect pixels = {x, y, Min(simd::kStripColumns, right - x), Min(kRangeRows, last - y)};
+        const int32_t least = surfaces_.least_blur[Beyond(pixels)];
+        if (least == 0) {
+          MarkPixels(surface, pixels, range->low, range->high);
+        } else {  // skips pixels that are too sharp to reach the bucket
+          MarkPixels(surface, pixels, range->low, Min(range->high, grid_.focus.far - least));
+          MarkPixels(surface, pixels, Max(range->low, grid_.focus.far + least), range->high);
+        }
       }
     }
   }
@@ -114,6 +107,13 @@ class SliceFinder {
     while (*last != 0) --last;
     const simd::DisparityRange range = {static_cast<int16_t>(Max(low, LowOf(first))),
                                         static_cast<int16_t>(Min(high, LowOf(last + 1) - 1))};
+    ForEachRun(surfaces_, surface, {pixels.y, pixels.y + pixels.height}, [&](const Range& rows) {
+      MarkRows(surface, {pixels.x, rows.first, pixels.width, rows.last - rows.first}, range);
+    });
+  }
+
+  // Marks the bins of the pixels whose disparities lie in `range`.
+  void MarkRows(int surface, const Rect& pixels, const simd::DisparityRange& range) {
     const int16_t* disparity = surfaces_.disparity[surface] + surfaces_.At(pixels.x, pixels.y);
     uint16_t within[kRangeRows];
     kernels_.FindWithin(disparity, static_cast<size_t>(surfaces_.stride),
@@ -195,7 +195,6 @@ class SliceFinder {
   const ViewGrid& grid_;
   const SliceRule& rule_;
   const Rect& bucket_;
-  simd::DisparityRange* const ranges_;
   int32_t range_;         // SliceRule::range, converted to a range of disparities.
   Rect around_;           // Region to search, in pixels of the surfaces.
   int32_t bin_bits_ = 0;  // log2 of the number of disparities in a bin.
@@ -205,9 +204,34 @@ class SliceFinder {
 }  // namespace
 
 int32_t FindSlices(const simd::Kernels& kernels, const LayeredDepth& surfaces, const ViewGrid& grid,
-                   const SliceRule& rule, const Rect& bucket, Slice* slices,
-                   simd::DisparityRange* ranges) {
-  return SliceFinder(kernels, surfaces, grid, rule, bucket, ranges).Find(slices);
+                   const SliceRule& rule, const Rect& bucket, Slice* slices) {
+  return SliceFinder(kernels, surfaces, grid, rule, bucket).Find(slices);
+}
+
+void FindStripRanges(const simd::Kernels& kernels, const LayeredDepth& surfaces) {
+  const auto width = static_cast<size_t>(surfaces.width);
+  const auto stride = static_cast<size_t>(surfaces.stride);
+  for (int surface = 0; surface < simd::kSurfaces; ++surface) {
+    for (int32_t y = 0; y < surfaces.height; y += kRangeRows) {
+      simd::DisparityRange* const ranges = surfaces.RangesAt(surface, 0, y);
+      bool first = true;
+      ForEachRun(surfaces, surface, {y, Min(y + kRangeRows, surfaces.height)},
+                 [&](const Range& rows) {
+                   simd::DisparityRange found[kMaxStrips];
+                   kernels.FindRanges(surfaces.disparity[surface] + surfaces.At(0, rows.first),
+                                      stride, static_cast<size_t>(rows.last - rows.first), width,
+                                      first ? ranges : found);
+                   for (size_t strip = 0; !first && strip < stride / simd::kSliceLanes; ++strip) {
+                     Widen(found[strip], &ranges[strip]);
+                   }
+                   first = false;
+                 });
+      if (!first) continue;
+      for (size_t strip = 0; strip < stride / simd::kSliceLanes; ++strip) {
+        ranges[strip] = {INT16_MAX, INT16_MIN};
+      }
+    }
+  }
 }
 
 }  // namespace starfocus

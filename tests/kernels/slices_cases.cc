@@ -15,81 +15,117 @@ std::vector<uint8_t> MostlyWholeShares(size_t count, Draw* draw) {
   });
 }
 
-// Makes a row of `count` pixels with surfaces; hidden surfaces are often missing. Values that the
+// Makes rows of `count` pixels with surfaces; hidden surfaces are often missing. Values that the
 // kernel does not read are arbitrary.
-SurfaceRow MakeSurfaces(size_t count, Draw* draw, KernelCall* call) {
-  const size_t whole = SliceSamples(count);
-  SurfaceRow row = {};
-  row.plane = whole + draw->Size(0, 20, 0);
-  for (size_t group = 0; group < 64; ++group) {
-    row.hiding |= uint64_t{draw->Int(0, 2) > 0} << group;
-  }
-  const uint8_t* share = call->Input("share", MostlyWholeShares(whole, draw));
-  row.share = share;
+SurfaceRows MakeSurfaces(size_t rows, size_t count, Draw* draw, KernelCall* call) {
+  const size_t whole = SliceSamples(count), stride = whole + draw->Size(0, 20, 0);
+  const size_t size = (rows - 1) * stride + whole;
+  SurfaceRows from = {};
+  from.stride = stride;
+  from.column = draw->Size(0, 40, 0);
+  from.rows = rows;
+  from.count = count;
+  from.first.plane = size + draw->Size(0, 20, 0);
+  from.hiding = call->Input("hiding", Filled<uint64_t>(rows, [&] { return draw->Next(); }));
+  from.first.share = call->Input("share", MostlyWholeShares(size, draw));
   for (int k = 0; k < kSurfaces; ++k) {
-    std::vector<int16_t> disparities = Disparities(whole, draw);
+    std::vector<int16_t> disparities = Disparities(size, draw);
     for (int16_t& d : disparities) d = k > 0 && draw->Int(0, 1) == 0 ? kNoSurface : d;
-    const int16_t* disparity = call->Input("disparity", disparities);
-    const int16_t* rgb = call->Input("rgb", Light(2 * row.plane + whole, draw));
-    for (size_t n = 0; n < whole; ++n) {
-      const bool counts = n < count && (k == 0 || (row.hiding >> n / kSliceLanes & 1) != 0);
-      if (!counts) call->Ignore(disparity + n, 1);
-      if (counts && disparity[n] != kNoSurface) continue;
-      for (size_t c = 0; c < 3; ++c) call->Ignore(rgb + c * row.plane + n, 1);
+    from.first.disparity[k] = call->Input("disparity", disparities);
+    from.first.rgb[k] = call->Input("rgb", Light(2 * from.first.plane + size, draw));
+  }
+  for (size_t at = 0; at < size; ++at) {
+    const SurfaceRow row = from.Row(at / stride);
+    const size_t n = at % stride;
+    const bool hides = n < count && (row.hiding >> n / kSliceLanes & 1) != 0;
+    if (!hides) call->Ignore(from.first.share + at, 1);
+    for (int k = 0; k < kSurfaces; ++k) {
+      const int16_t* disparity = from.first.disparity[k] + at;
+      const bool counts = n < count && (k == 0 || hides);
+      const bool coloured = counts && *disparity != kNoSurface;
+      if (!counts) call->Ignore(disparity, 1);
+      for (size_t c = 0; c < 3 && !coloured; ++c) {
+        call->Ignore(from.first.rgb[k] + c * from.first.plane + at, 1);
+      }
     }
-    row.disparity[k] = disparity;
-    row.rgb[k] = rgb;
   }
-  for (size_t n = 0; n < whole; ++n) {
-    if (n >= count || (row.hiding >> n / kSliceLanes & 1) == 0) call->Ignore(share + n, 1);
+  return from;
+}
+
+// Returns the groups that contain a pixel of a slice, and some other groups.
+uint64_t GroupsOf(const SurfaceRows& from, int16_t low, int16_t overlap, Draw* draw) {
+  uint64_t groups = draw->timed() ? ~uint64_t{0} : draw->Next() & draw->Next();
+  for (size_t y = 0; y < from.rows; ++y) {
+    const SurfaceRow row = from.Row(y);
+    for (size_t n = 0; n < from.count; ++n) {
+      const uint64_t bit = uint64_t{1} << n / kSliceLanes;
+      for (int k = 0; k < ((row.hiding & bit) != 0 ? kSurfaces : 1); ++k) {
+        if (row.disparity[k][n] >= low && row.disparity[k][n] <= overlap) groups |= bit;
+      }
+    }
   }
-  return row;
+  return groups & ((uint64_t{2} << (from.count - 1) / kSliceLanes) - 1);
 }
 
 }  // namespace
 
 void SelectSlice(Draw* draw, KernelCall* call) {
-  const size_t count = draw->Length(1, 100, kTimedSamples / 4), whole = SliceSamples(count);
-  const size_t plane = whole + draw->Size(0, 20, 0);
-  const SurfaceRow row = MakeSurfaces(count, draw, call);
-  const int middle = row.disparity[0][count / 2], more = draw->Int(0, 400);
+  const size_t rows = draw->Size(1, 9, 8), count = draw->Length(1, 100, kTimedSamples / 32);
+  const size_t whole = SliceSamples(count), width = whole + kSliceLanes * draw->Size(0, 2, 0);
+  const size_t plane = width + draw->Size(0, 20, 0);
+  const SurfaceRows from = MakeSurfaces(rows, count, draw, call);
+  const int middle = from.first.disparity[0][count / 2], more = draw->Int(0, 400);
   const auto low = int16_t(std::max(-32700, middle - more));
   const auto high = int16_t(std::min(32700, middle + more / 2));
   const auto overlap = int16_t(std::min(32700, middle + more));
-  auto* out = call->OutputRows<int16_t>("out", 4, plane, count, whole - count);
-  auto* cover = call->Results<SliceCover>("cover", 1);
-  call->Runs([=](const Kernels& kernels) {
-    *cover = kernels.SelectSlice(row, low, high, overlap, count, plane, out);
-  });
+  const uint64_t groups = GroupsOf(from, low, overlap, draw);
+  auto* out = call->OutputRows<int16_t>("out", 4 * rows, plane, width);
+  auto* cover = call->Results<SliceCover>("cover", rows);
+  call->Calls(&Kernels::SelectSlice, from, low, high, overlap, groups, width, plane, out, cover);
   call->is_right = [=](uint64_t, Met* met) {
-    SliceCover expected = {0, (uint64_t{1} << whole / kSliceLanes) - 1};
-    for (size_t n = 0; n < count; ++n) {
-      const uint64_t bit = uint64_t{1} << n / kSliceLanes;
-      const int16_t covered = out[3 * plane + n];
-      if (covered > 0) expected.some |= bit;
-      if (covered < kSliceOne) expected.all &= ~bit;
-      (*met)[covered == 0 ? "none" : covered < kSliceOne ? "a part" : "all"] += 1;
+    bool right = true;
+    for (size_t y = 0; y < rows; ++y) {
+      int16_t* const row = out + 4 * y * plane;
+      SliceCover expected = {0, groups};
+      for (size_t n = 0; n < count; ++n) {
+        const uint64_t bit = uint64_t{1} << n / kSliceLanes;
+        const int16_t covered = row[3 * plane + n];
+        if (covered > 0) expected.some |= bit;
+        if (covered < kSliceOne) expected.all &= ~bit;
+        (*met)[covered == 0 ? "none" : covered < kSliceOne ? "a part" : "all"] += 1;
+      }
+      (*met)["groups covered"] += expected.all != 0;
+      (*met)["groups not covered"] += (groups & ~expected.some) != 0;
+      (*met)["rows not covered"] += expected.some == 0;
+      right = right && cover[y].some == expected.some && cover[y].all == expected.all;
+      for (size_t c = 0; c < 4; ++c) {
+        if (cover[y].some == 0) call->Free(row + c * plane, width);
+        call->Free(row + c * plane + count, whole - count);
+      }
     }
-    (*met)["groups covered"] += expected.all != 0;
-    return cover->some == expected.some && cover->all == expected.all;
+    return right;
   };
 }
 
-// SpreadSlice spreads samples that are `step` apart, either in a row or in a column of planes.
+// SpreadSlice spreads samples either along a row, so that its input rows overlap, or along columns.
 void SpreadSlice(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 160, kTimedSamples), whole = SliceSamples(count);
   SliceTaps taps = {int32_t(draw->Size(1, kMaxSpread, 2)), 0, 0, 0};
   taps.inner = int16_t(taps.reach == 1 ? 0 : draw->Int(0, 32767 / taps.reach));
   taps.outer = int16_t(draw->Int(0, taps.inner == 0 ? 20000 : taps.inner));
   taps.centre = int16_t(std::min(32767, 32768 - (taps.reach - 1) * taps.inner - taps.outer));
-  const size_t step = draw->Rarely(2) ? 4 * 48 : 1, before = size_t(taps.reach) * step;
+  const size_t step = draw->Rarely(2) ? whole + draw->Size(0, 5, 0) : 1;
+  const size_t others = 2 * size_t(taps.reach);
   const int bright = draw->Int(0, 4);
-  const auto samples = Filled<int16_t>(whole + 2 * before, [&] {
+  const auto samples = Filled<int16_t>(whole + others * step, [&] {
     return draw->Int(0, 4) < bright ? kSliceOne : draw->Int(0, kSliceOne);
   });
-  const int16_t* in = call->Input("in", samples) + before;
+  const int16_t* in = call->Input("in", samples);
+  std::vector<const int16_t*> rows;
+  for (size_t k = 0; k <= others; ++k) rows.push_back(in + k * step);
+  const int16_t* const* const each = call->Input("rows", rows);
   auto* out = call->Results<int16_t>("out", whole);
-  call->Calls(&Kernels::SpreadSlice, in, ptrdiff_t(step), taps, count, out);
+  call->Calls(&Kernels::SpreadSlice, each, taps, count, out);
 }
 
 namespace {

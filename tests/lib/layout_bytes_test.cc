@@ -90,9 +90,9 @@ TEST_CASE("layout: the workspaces for boards do not exceed their recorded sizes"
     size_t most;
   } kBoards[] = {
       // The first three boards have memory for thin structures.
-      {with_coverage(test::BoardConfig(640, 480, 1, 32, 8, 1)), 4565},
-      {with_coverage(test::BoardConfig(1920, 1080, 17, 64, 32, 0)), 14444},
-      {with_coverage(test::BoardConfig(1920, 1080, 1, 64, 32, 0)), 14516},
+      {with_coverage(test::BoardConfig(640, 480, 1, 32, 8, 1)), 4566},
+      {with_coverage(test::BoardConfig(1920, 1080, 17, 64, 32, 0)), 14446},
+      {with_coverage(test::BoardConfig(1920, 1080, 1, 64, 32, 0)), 14519},
       // VGA, one streamed view, blocks of 32 pixels, blurs of up to 8 pixels.
       {test::BoardConfig(640, 480, 1, 32, 8, 1), 1141},
       // Full HD, whole pictures, blocks of 64 pixels, blurs of up to 32 pixels.

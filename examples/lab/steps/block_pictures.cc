@@ -186,9 +186,8 @@ class BlockArtist {
     const Border& border = planned_.block.border;
     const Rect in_surfaces = {border.left + tile.x, border.top + tile.y, tile.width, tile.height};
     Slice slices[kMaxSlices];
-    simd::DisparityRange bands[kMaxRanges];
     const int32_t count = FindSlices(*job_.input->kernels, memory_->surfaces, grid_,
-                                     SliceRuleOf(job_), in_surfaces, slices, bands);
+                                     SliceRuleOf(job_), in_surfaces, slices);
     for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
       for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
         const int16_t disparity = memory_->surfaces.disparity[0][At(x, y)];
