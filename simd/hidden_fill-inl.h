@@ -44,14 +44,16 @@ HWY_INLINE int32_t CopyHidden(const SurfaceRow& from, const uint16_t* const* sou
 }
 
 inline int32_t CopyFarthest(const SurfaceRow& from, const uint16_t* const* source, size_t count,
-                            const FarRow& far) {
+                            const FarRow& far, uint64_t* strips) {
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;
   int32_t most = 0;
+  *strips = 0;
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
     if ((from.hiding >> (n / kSliceLanes) & 1) != 0) {
       const int32_t distance = CopyHidden(from, source, n, far);
       most = distance > most ? distance : most;
+      if (distance > 0) *strips |= uint64_t{1} << (n / kSliceLanes);
       continue;
     }
     hn::StoreU(hn::LoadU(d16, from.disparity[0] + n), d16, far.disparity + n);
@@ -92,12 +94,21 @@ HWY_INLINE hn::Mask<LanesTag> Differ(LanesVec a, LanesVec b, int16_t unit) {
                 hn::Gt(hn::Set(d16, static_cast<int16_t>(-unit)), less));
 }
 
-inline void LimitFar(const FarRows& rows, size_t count, int16_t* HWY_RESTRICT out) {
+// Calls act(n) for the vectors from pixel n on of all groups of kSliceLanes in `strips`.
+template <class Act>
+HWY_INLINE void ForVectors(uint64_t strips, const Act& act) {
+  for (size_t strip = 0; strips != 0; strips >>= 1, strip += kSliceLanes) {
+    if ((strips & 1) == 0) continue;
+    for (size_t n = strip; n < strip + kSliceLanes; n += hn::Lanes(LanesTag())) act(n);
+  }
+}
+
+inline void LimitFar(const FarRows& rows, int16_t* HWY_RESTRICT out) {
   const LanesTag d16;
   const auto zero = hn::Zero(d16);
-  for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
+  ForVectors(rows.strips, [&](size_t n) HWY_ATTR {
     const auto from = hn::LoadU(d16, reinterpret_cast<const int16_t*>(rows.source) + n);
-    if (hn::AllTrue(d16, hn::Eq(from, zero))) continue;
+    if (hn::AllTrue(d16, hn::Eq(from, zero))) return;
     const auto across = hn::Ne(hn::And(from, hn::Set(d16, kSourceAlongRow)), zero);
     const auto down = hn::Ne(hn::And(from, hn::Set(d16, kSourceAlongColumn)), zero);
     const auto own = hn::LoadU(d16, rows.disparity[1] + n);
@@ -108,7 +119,7 @@ inline void LimitFar(const FarRows& rows, size_t count, int16_t* HWY_RESTRICT ou
     const auto other = hn::Or(is_other(rows.disparity[0], rows.disparity[1] + n - 1),
                               is_other(rows.disparity[2], rows.disparity[1] + n + 1));
     const auto takes = hn::AndNot(other, hn::Xor(across, down));
-    if (hn::AllFalse(d16, takes)) continue;
+    if (hn::AllFalse(d16, takes)) return;
     for (size_t c = 0; c < 3; ++c) {
       const size_t at = c * rows.plane + n;
       const auto first = hn::IfThenElse(across, hn::LoadU(d16, rows.rgb[0] + at),
@@ -123,10 +134,10 @@ inline void LimitFar(const FarRows& rows, size_t count, int16_t* HWY_RESTRICT ou
                   hn::SaturatedAdd(high, more));
       hn::StoreU(hn::IfThenElse(takes, limited, hn::LoadU(d16, out + at)), d16, out + at);
     }
-  }
+  });
 }
 
-inline void SmoothFar(const FarRows& rows, int32_t step, size_t count, int16_t* HWY_RESTRICT out) {
+inline void SmoothFar(const FarRows& rows, int32_t step, int16_t* HWY_RESTRICT out) {
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;
   // Largest integer distance n for which 2 n < step.
@@ -134,10 +145,10 @@ inline void SmoothFar(const FarRows& rows, int32_t step, size_t count, int16_t* 
   const auto mean = [&](LanesVec a, LanesVec b) HWY_ATTR {
     return hn::BitCast(d16, hn::AverageRound(hn::BitCast(du16, a), hn::BitCast(du16, b)));
   };
-  for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
+  ForVectors(rows.strips, [&](size_t n) HWY_ATTR {
     const auto distance = hn::ShiftRight<kSourceDistance>(hn::LoadU(du16, rows.source + n));
     const auto takes = hn::Gt(hn::BitCast(d16, distance), short_of);
-    if (hn::AllFalse(d16, takes)) continue;
+    if (hn::AllFalse(d16, takes)) return;
     const auto own = hn::LoadU(d16, rows.disparity[1] + n);
     const auto differs = [&](const int16_t* at)
                              HWY_ATTR { return Differ(own, hn::LoadU(d16, at), rows.unit); };
@@ -158,7 +169,7 @@ inline void SmoothFar(const FarRows& rows, int32_t step, size_t count, int16_t* 
       int16_t* const to = out + c * rows.plane + n;
       hn::StoreU(hn::IfThenElse(takes, smooth, hn::LoadU(d16, to)), d16, to);
     }
-  }
+  });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -30,7 +30,10 @@ struct FarRows {
   const int16_t* rgb[3];
   size_t plane;
   const uint16_t* source;  // of row 1
-  int16_t unit;            // largest difference of disparity within one surface
+  // Bit k is set if group k of kSliceLanes pixels of row 1 is processed. The other groups repeat no
+  // colour.
+  uint64_t strips;
+  int16_t unit;  // largest difference of disparity within one surface
 };
 
 // Light, 4/255 of white, by which repeated colours may always differ (LimitFar).
@@ -51,12 +54,14 @@ inline int FarthestOf(const SurfaceRow& surfaces, size_t n) {
 }
 
 // Copies the farthest surfaces of a row of `count` pixels, in whole groups of kSliceLanes. Returns
-// the largest distance over which a copied colour is repeated, or 0 if no colour is repeated. The
+// the largest distance over which a copied colour is repeated, or 0 if no colour is repeated. Bit k
+// of *strips is set if group k of kSliceLanes pixels repeats a colour. The
 // sources of the hidden surfaces have the format of HiddenRow: source[k] belongs to surface k + 1.
 // If the first surface covers only a part of a pixel, source[0] belongs to surface 2 instead.
 STARFOCUS_REFERENCE int32_t CopyFarthest(const SurfaceRow& row, const uint16_t* const* source,
-                                         size_t count, const FarRow& far) {
+                                         size_t count, const FarRow& far, uint64_t* strips) {
   int32_t most = 0;
+  *strips = 0;
   for (size_t n = 0; n < SliceSamples(count); ++n) {
     const int farthest = FarthestOf(row, n);
     const uint8_t share = row.share[n];
@@ -70,6 +75,7 @@ STARFOCUS_REFERENCE int32_t CopyFarthest(const SurfaceRow& row, const uint16_t* 
       far.rgb[c * far.plane + n] = row.rgb[farthest][c * row.plane + n];
     }
     most = distance > most ? distance : most;
+    if (distance > 0) *strips |= uint64_t{1} << (n / kSliceLanes);
   }
   return most;
 }
@@ -82,20 +88,19 @@ inline bool IsSame(const FarRows& rows, size_t n, int row, ptrdiff_t across) {
   return less <= rows.unit && less >= -rows.unit;
 }
 
-// Smooths the colours of those pixels n < count of a row whose colours are repeated over a distance
-// of at least step / 2. Other pixels are not changed. Whole groups of kSliceLanes are processed.
-// `step` is at most kSliceLanes. The new colour of a pixel is the mean of its old colour and the
-// mean of its four neighbours at a distance of `step` pixels. If the disparity of a neighbour
-// differs by more than `unit`, the pixel itself replaces the neighbour. The mean of the neighbours
-// is the mean of two means: the mean of left and right, and the mean of above and below. Each mean
-// is rounded half up. Rows 0 and 2 are `step` rows above and below. Colours are light and not
-// negative.
-STARFOCUS_REFERENCE void SmoothFar(const FarRows& rows, int32_t step, size_t count, int16_t* out) {
+// Smooths the colours of those pixels of a row whose colours are repeated over a distance of at
+// least step / 2. Other pixels are not changed. Processes the groups rows.strips. `step` is at most
+// kSliceLanes. The new colour of a pixel is the mean of its old colour and the mean of its four
+// neighbours at a distance of `step` pixels. If the disparity of a neighbour differs by more than
+// `unit`, the pixel itself replaces the neighbour. The mean of the neighbours is the mean of two
+// means: the mean of left and right, and the mean of above and below. Each mean is rounded half up.
+// Rows 0 and 2 are `step` rows above and below. Colours are light and not negative.
+STARFOCUS_REFERENCE void SmoothFar(const FarRows& rows, int32_t step, int16_t* out) {
   // Left, right, above and below.
   const int row_of[4] = {1, 1, 0, 2};
   const ptrdiff_t across[4] = {-step, step, 0, 0};
-  for (size_t n = 0; n < SliceSamples(count); ++n) {
-    if (2 * (rows.source[n] >> kSourceDistance) < step) continue;
+  for (size_t n = 0; n < 64 * kSliceLanes; ++n) {
+    if (!IsHiding(rows.strips, n) || 2 * (rows.source[n] >> kSourceDistance) < step) continue;
     for (size_t c = 0; c < 3; ++c) {
       const size_t at = c * rows.plane + n;
       const int16_t here = rows.rgb[1][at];
@@ -116,9 +121,10 @@ STARFOCUS_REFERENCE void SmoothFar(const FarRows& rows, int32_t step, size_t cou
 // pixels above and below if the source is on the left or right, the pixels on the left and right if
 // the source is above or below. A pixel with sources in both directions, or with a neighbour whose
 // disparity differs by more than `unit`, is not changed. Rows 0 and 2 are the next rows. Processes
-// whole groups of kSliceLanes.
-STARFOCUS_REFERENCE void LimitFar(const FarRows& rows, size_t count, int16_t* out) {
-  for (size_t n = 0; n < SliceSamples(count); ++n) {
+// the groups rows.strips.
+STARFOCUS_REFERENCE void LimitFar(const FarRows& rows, int16_t* out) {
+  for (size_t n = 0; n < 64 * kSliceLanes; ++n) {
+    if (!IsHiding(rows.strips, n)) continue;
     const bool across = (rows.source[n] & kSourceAlongRow) != 0;
     const bool down = (rows.source[n] & kSourceAlongColumn) != 0;
     if (across == down) continue;

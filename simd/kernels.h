@@ -73,7 +73,7 @@
   KERNEL(FindSteps)               \
   KERNEL(BesideSteps)             \
   KERNEL(FindCopies)              \
-  KERNEL(ColourCopies)            \
+  KERNEL(InsertCopies)            \
   KERNEL(FindHidden)              \
   KERNEL(FindBeyond)              \
   KERNEL(CoverPlaces)             \

@@ -16,19 +16,27 @@ inline void Deinterleave(const int16_t* HWY_RESTRICT rgb, size_t count, size_t p
 }
 
 inline void FindEdges(const int16_t* HWY_RESTRICT near, const int16_t* HWY_RESTRICT far,
-                      int16_t least_step, int unit_bits, size_t count, int16_t* HWY_RESTRICT moved,
-                      int16_t* HWY_RESTRICT behind, uint8_t* HWY_RESTRICT distance) {
+                      int16_t least_step, int unit_bits, int16_t last, size_t count,
+                      int16_t* HWY_RESTRICT moved, int16_t* HWY_RESTRICT behind,
+                      uint8_t* HWY_RESTRICT distance) {
   const LanesTag d16;
   const size_t lanes = hn::Lanes(d16);
   const auto step = hn::Set(d16, least_step);
   const auto unit = hn::Set(d16, static_cast<int16_t>(1 << unit_bits));
-  const auto farthest = hn::Set(d16, FarthestEdge(unit_bits));
+  const auto farthest = hn::Set(d16, last), none = hn::Set(d16, int16_t{INT16_MAX});
   const auto one = hn::Set(d16, int16_t{1});
   for (size_t n = 0; n < SliceSamples(count); n += lanes) {
     const auto here = hn::LoadU(d16, near + n), next = hn::LoadU(d16, far + n);
-    const auto far_away = hn::SaturatedAdd(hn::LoadU(d16, moved + n), unit);
+    const auto change = hn::SaturatedSub(here, next), moved_before = hn::LoadU(d16, moved + n);
+    // Most vectors are far from every edge.
+    if (hn::AllFalse(d16, hn::Or(hn::Gt(change, step), hn::Lt(moved_before, none)))) {
+      StoreBytes(d16, hn::Zero(d16), distance + n);
+      continue;
+    }
+    const auto moves_on = hn::SaturatedAdd(moved_before, unit);
+    const auto far_away = hn::IfThenElse(hn::Gt(moves_on, farthest), none, moves_on);
     const auto before = hn::LoadU(d16, behind + n);
-    const auto change = hn::SaturatedSub(here, next), so_far = hn::SaturatedSub(here, before);
+    const auto so_far = hn::SaturatedSub(here, before);
     const auto ends = hn::Or(hn::Gt(far_away, hn::Min(so_far, farthest)),
                              hn::Gt(change, hn::ShiftRight<kSmallStepBits>(so_far)));
     const auto edge = hn::And(hn::Gt(change, step), ends);
@@ -404,31 +412,47 @@ inline void BesideSteps(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, size_
 inline uint64_t FindCopies(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, size_t count,
                            int16_t least_step, int16_t most_step, int16_t* HWY_RESTRICT copies) {
   const LanesTag d16;
-  const auto most = hn::Set(d16, most_step), none = hn::Set(d16, kNoSurface);
-  const auto below_least = hn::Set(d16, static_cast<int16_t>(least_step - 1));
+  const hn::RebindToUnsigned<LanesTag> du16;
+  // Steps minus `more` are negative up to `most_step`. As unsigned numbers, the largest of them is
+  // therefore that of the largest step up to `most_step`, if there is one.
+  const auto more = hn::Set(d16, static_cast<int16_t>(most_step + 1));
+  const auto none = hn::Set(d16, kNoSurface), zero = hn::Zero(d16);
+  const auto below_least = hn::Set(d16, static_cast<int16_t>(least_step - most_step - 2));
   uint64_t strips = 0;
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
     const auto here = hn::LoadU(d16, row + n);
-    auto farthest = hn::Zero(d16);
+    auto largest = hn::Zero(du16);
     for (const ptrdiff_t next : {ptrdiff_t{1}, ptrdiff_t{-1}, stride - 1, stride, stride + 1,
                                  -stride - 1, -stride, -stride + 1}) {
       const auto step =
           hn::SaturatedSub(here, hn::LoadU(d16, row + static_cast<ptrdiff_t>(n) + next));
-      farthest = hn::Max(farthest, hn::IfThenZeroElse(hn::Gt(step, most), step));
+      largest = hn::Max(largest, hn::BitCast(du16, hn::Sub(step, more)));
     }
+    const auto less = hn::BitCast(d16, largest);
     const auto inside = hn::FirstN(d16, n < count ? count - n : 0);
-    const auto copied = hn::And(hn::Gt(farthest, below_least), inside);
-    hn::StoreU(hn::IfThenElse(copied, hn::Sub(here, farthest), none), d16, copies + n);
+    const auto copied = hn::And(hn::And(hn::Gt(less, below_least), hn::Lt(less, zero)), inside);
+    const auto copy = hn::Sub(here, hn::Add(less, more));
+    hn::StoreU(hn::IfThenElse(copied, copy, none), d16, copies + n);
     if (!hn::AllFalse(d16, copied)) strips |= uint64_t{1} << (n / kSliceLanes);
   }
   return strips;
 }
 
-inline void ColourCopies(const int16_t* HWY_RESTRICT row, ptrdiff_t stride,
+// Moves a lane of `first` to `second` and replaces it by `value`, if the lane is in `inserts`.
+HWY_INLINE void InsertLanes(hn::Mask<LanesTag> inserts, LanesVec value, int16_t* HWY_RESTRICT first,
+                            int16_t* HWY_RESTRICT second) {
+  const LanesTag d16;
+  const auto before = hn::LoadU(d16, first);
+  hn::StoreU(hn::IfThenElse(inserts, before, hn::LoadU(d16, second)), d16, second);
+  hn::StoreU(hn::IfThenElse(inserts, value, before), d16, first);
+}
+
+inline void InsertCopies(const int16_t* HWY_RESTRICT row, ptrdiff_t stride,
                          const int16_t* HWY_RESTRICT copies, const int16_t* HWY_RESTRICT rgb,
-                         size_t plane, size_t out_plane, int16_t* HWY_RESTRICT out) {
+                         const HiddenGroup& hidden) {
   const LanesTag d16;
   const hn::RebindToUnsigned<decltype(d16)> du16;
+  const hn::Rebind<uint8_t, LanesTag> d8;
   const auto mean_of_found = [=](auto has_a, LanesVec a, auto has_b, LanesVec b) HWY_ATTR {
     const auto mean =
         hn::BitCast(d16, hn::AverageRound(hn::BitCast(du16, a), hn::BitCast(du16, b)));
@@ -436,6 +460,13 @@ inline void ColourCopies(const int16_t* HWY_RESTRICT row, ptrdiff_t stride,
   };
   for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
     const auto copy = hn::LoadU(d16, copies + n);
+    const auto share = hn::PromoteTo(d16, hn::LoadU(d8, hidden.share + n));
+    const auto inserts = hn::And(hn::Gt(copy, hn::LoadU(d16, hidden.disparity[0] + n)),
+                                 hn::Eq(share, hn::Set(d16, kSliceWhole)));
+    if (hn::AllFalse(d16, inserts)) continue;
+    InsertLanes(inserts, copy, hidden.disparity[0] + n, hidden.disparity[1] + n);
+    InsertLanes(inserts, hn::Zero(d16), reinterpret_cast<int16_t*>(hidden.source[0] + n),
+                reinterpret_cast<int16_t*>(hidden.source[1] + n));
     const int16_t* const at = row + n;
     // Vectors are arguments, because SVE vectors cannot be captured.
     const auto is_copy = [=](LanesVec disparity, ptrdiff_t next)
@@ -443,22 +474,27 @@ inline void ColourCopies(const int16_t* HWY_RESTRICT row, ptrdiff_t stride,
     const auto right = is_copy(copy, 1), left = is_copy(copy, -1), below = is_copy(copy, stride),
                above = is_copy(copy, -stride);
     const auto in_row = hn::Or(right, left), in_column = hn::Or(below, above);
+    const auto straight = hn::Or(in_row, in_column);
+    // Few copies have neighbours along diagonals only.
+    const bool is_straight = hn::AllFalse(d16, hn::AndNot(straight, inserts));
     const auto fall_below = is_copy(copy, stride + 1), fall_above = is_copy(copy, -stride - 1);
     const auto rise_below = is_copy(copy, stride - 1), rise_above = is_copy(copy, -stride + 1);
     const auto falls = hn::Or(fall_below, fall_above), rises = hn::Or(rise_below, rise_above);
     for (size_t c = 0; c < 3; ++c) {
-      const int16_t* const from = rgb + c * plane + n;
+      const size_t sample = c * hidden.plane + n;
+      const int16_t* const from = rgb + sample;
       const auto mean_of = [=](auto has_a, ptrdiff_t a, auto has_b, ptrdiff_t b) HWY_ATTR {
         return mean_of_found(has_a, hn::LoadU(d16, from + a), has_b, hn::LoadU(d16, from + b));
       };
       const auto along = mean_of(right, 1, left, -1);
       const auto across = mean_of(below, stride, above, -stride);
-      const auto fall = mean_of(fall_below, stride + 1, fall_above, -stride - 1);
-      const auto rise = mean_of(rise_below, stride - 1, rise_above, -stride + 1);
-      const auto beside = mean_of_found(in_row, along, in_column, across);
-      const auto diagonal = mean_of_found(falls, fall, rises, rise);
-      hn::StoreU(hn::IfThenElse(hn::Or(in_row, in_column), beside, diagonal), d16,
-                 out + c * out_plane + n);
+      auto colour = mean_of_found(in_row, along, in_column, across);
+      if (!is_straight) {
+        const auto fall = mean_of(fall_below, stride + 1, fall_above, -stride - 1);
+        const auto rise = mean_of(rise_below, stride - 1, rise_above, -stride + 1);
+        colour = hn::IfThenElse(straight, colour, mean_of_found(falls, fall, rises, rise));
+      }
+      InsertLanes(inserts, colour, hidden.rgb[0] + sample, hidden.rgb[1] + sample);
     }
   }
 }

@@ -90,6 +90,16 @@ struct HiddenRow {
   uint8_t* share;                  // Share of the first surface: kSliceWhole or kSliceEnd.
 };
 
+// Hidden surfaces of a group of kSliceLanes pixels, and the share of their first surfaces. The
+// three planes of colours are `plane` samples apart.
+struct HiddenGroup {
+  int16_t* disparity[kSurfaces - 1];
+  uint16_t* source[kSurfaces - 1];
+  int16_t* rgb[kSurfaces - 1];
+  size_t plane;
+  const uint8_t* share;
+};
+
 // Format of a source, which describes the origin of the colour of a hidden surface. A source is 0
 // if there is no surface. Bit k is set if side k (right, left, bottom, top) shows the surface; the
 // colour is the mean over these sides. Bit kSourceSecond + k is set if only the second view of side
@@ -196,26 +206,28 @@ STARFOCUS_REFERENCE void Deinterleave(const int16_t* rgb, size_t count, size_t p
 // the disparity step, a side view reveals one more pixel of the hidden background. `unit_bits` is
 // in [6, 8].
 //
-// For each pixel, moved[n] is the distance to the next edge in units of disparity, and behind[n] is
-// the disparity beyond that edge. On entry, moved[n] and behind[n] describe row `far`; on return,
-// they describe row `near`. Before the first call, the caller sets moved[n] to INT16_MAX.
+// For each pixel, moved[n] is the distance to the next edge in units of disparity, or INT16_MAX if
+// the distance exceeds `farthest`, and behind[n] is the disparity beyond that edge. On entry,
+// moved[n] and behind[n] describe row `far`; on return, they describe row `near`. Before the first
+// call, the caller sets moved[n] to INT16_MAX. `farthest` is at most FarthestEdge(unit_bits).
 //
 // If the near pixel hides the far side of the edge from some view, distance[n] is the distance in
 // pixels to the far side. If the near pixel hides nothing, distance[n] is 0. Whole groups of
 // kSliceLanes are read and written.
 STARFOCUS_REFERENCE void FindEdges(const int16_t* near, const int16_t* far, int16_t step,
-                                   int unit_bits, size_t count, int16_t* moved, int16_t* behind,
-                                   uint8_t* distance) {
+                                   int unit_bits, int16_t farthest, size_t count, int16_t* moved,
+                                   int16_t* behind, uint8_t* distance) {
   for (size_t n = 0; n < SliceSamples(count); ++n) {
-    const int16_t farther = Saturated(moved[n] + (1 << unit_bits));
+    const int next = moved[n] + (1 << unit_bits);
+    const int16_t farther = next > farthest ? int16_t{INT16_MAX} : static_cast<int16_t>(next);
     const int16_t change = Saturated(near[n] - far[n]), so_far = Saturated(near[n] - behind[n]);
-    const bool goes_on = farther <= so_far && farther <= FarthestEdge(unit_bits) &&
-                         change <= so_far >> kSmallStepBits;
+    const bool goes_on =
+        farther <= so_far && farther <= farthest && change <= so_far >> kSmallStepBits;
     const bool edge = change > step && !goes_on;
     moved[n] = edge ? int16_t{0} : farther;
     if (edge) behind[n] = far[n];
     const int16_t depth = Saturated(near[n] - behind[n]);
-    const bool hides = depth > step && moved[n] <= depth && moved[n] <= FarthestEdge(unit_bits);
+    const bool hides = depth > step && moved[n] <= depth && moved[n] <= farthest;
     distance[n] = static_cast<uint8_t>(hides ? (moved[n] >> unit_bits) + 1 : 0);
   }
 }
@@ -283,31 +295,38 @@ inline int16_t MeanOfFound(bool has_a, int16_t a, bool has_b, int16_t b) {
   return has_a && has_b ? static_cast<int16_t>((a + b + 1) >> 1) : has_a ? a : b;
 }
 
-// Writes the colours of the copies (FindCopies) of a group of kSliceLanes pixels. A copy has the
-// mean colour of the neighbours whose disparity is that of the copy: the mean of the means along
-// the row and along the column, or, without such a neighbour there, of the means along both
-// diagonals. Colours of pixels without a copy are unspecified. The three planes
-// of `rgb` are `plane` samples apart, and those of `out` are `out_plane` samples apart. Rows are
-// `stride` samples apart.
-STARFOCUS_REFERENCE void ColourCopies(const int16_t* row, ptrdiff_t stride, const int16_t* copies,
-                                      const int16_t* rgb, size_t plane, size_t out_plane,
-                                      int16_t* out) {
+// Returns the colour of a copy (InsertCopies) of a pixel, in the plane in which `rgb` is the pixel.
+inline int16_t ColourOfCopy(const int16_t* row, ptrdiff_t stride, int16_t copy,
+                            const int16_t* rgb) {
+  const auto is_copy = [=](ptrdiff_t next) { return row[next] == copy; };
+  const auto mean_of = [=](ptrdiff_t a, ptrdiff_t b) {
+    return MeanOfFound(is_copy(a), rgb[a], is_copy(b), rgb[b]);
+  };
+  const bool along = is_copy(1) || is_copy(-1), across = is_copy(stride) || is_copy(-stride);
+  if (along || across) return MeanOfFound(along, mean_of(1, -1), across, mean_of(stride, -stride));
+  const ptrdiff_t fall = stride + 1, rise = stride - 1;
+  return MeanOfFound(is_copy(fall) || is_copy(-fall), mean_of(fall, -fall),
+                     is_copy(rise) || is_copy(-rise), mean_of(rise, -rise));
+}
+
+// Inserts the copies (FindCopies) of a group of kSliceLanes pixels in front of their hidden
+// surfaces. A pixel whose first hidden surface is nearer keeps its surfaces, and so does a pixel at
+// which the first surface ends, because this pixel belongs to one slice only. The source of a copy
+// is 0. Its colour is the mean colour of the neighbours whose disparity is that of the copy: the
+// mean of the means along the row and along the column, or, without such a neighbour there, of the
+// means along both diagonals. Rows are `stride` samples apart. The planes of `rgb`, the colours of
+// the first surfaces, are as far apart as those of `hidden`.
+STARFOCUS_REFERENCE void InsertCopies(const int16_t* row, ptrdiff_t stride, const int16_t* copies,
+                                      const int16_t* rgb, const HiddenGroup& hidden) {
   for (size_t n = 0; n < kSliceLanes; ++n) {
-    const int16_t* const at = row + n;
-    const bool right = at[1] == copies[n], left = at[-1] == copies[n];
-    const bool below = at[stride] == copies[n], above = at[-stride] == copies[n];
-    const bool beside = right || left || below || above;
-    const bool falls[] = {at[stride + 1] == copies[n], at[-stride - 1] == copies[n]};
-    const bool rises[] = {at[stride - 1] == copies[n], at[-stride + 1] == copies[n]};
-    for (size_t c = 0; c < 3; ++c) {
-      const int16_t* const colour = rgb + c * plane + n;
-      const int16_t along = MeanOfFound(right, colour[1], left, colour[-1]);
-      const int16_t across = MeanOfFound(below, colour[stride], above, colour[-stride]);
-      const int16_t fall = MeanOfFound(falls[0], colour[stride + 1], falls[1], colour[-stride - 1]);
-      const int16_t rise = MeanOfFound(rises[0], colour[stride - 1], rises[1], colour[-stride + 1]);
-      out[c * out_plane + n] =
-          beside ? MeanOfFound(right || left, along, below || above, across)
-                 : MeanOfFound(falls[0] || falls[1], fall, rises[0] || rises[1], rise);
+    if (copies[n] <= hidden.disparity[0][n] || hidden.share[n] != kSliceWhole) continue;
+    hidden.disparity[1][n] = hidden.disparity[0][n];
+    hidden.disparity[0][n] = copies[n];
+    hidden.source[1][n] = hidden.source[0][n];
+    hidden.source[0][n] = 0;
+    for (size_t at = n; at < 3 * hidden.plane; at += hidden.plane) {
+      hidden.rgb[1][at] = hidden.rgb[0][at];
+      hidden.rgb[0][at] = ColourOfCopy(row + n, stride, copies[n], rgb + at);
     }
   }
 }

@@ -34,7 +34,7 @@ static starfocus_status MakeEngine(starfocus_pool* pool, starfocus_engine** engi
   config.width = kWidth, config.height = kHeight, config.views = kCameras;
   config.disparity_min = kWall, config.disparity_max = kBall, config.max_blur = kBall - kWall;
   config.features |= STARFOCUS_FEATURE_STREAMING, config.features |= STARFOCUS_FEATURE_IMAGES;
-  config.superblock = 64; /* the default, 128, requires four times the memory per worker */
+  config.superblock = 64; /* the default, 128, requires twice the memory per worker */
   config.max_workers = starfocus_pool_workers(pool);
   callbacks.runner = starfocus_pool_run, callbacks.runner_data = pool;
   status = starfocus_create(&config, NULL, engine, NULL);

@@ -10,15 +10,12 @@ using namespace starfocus;
 namespace starfocus {
 namespace {
 
-// Returns the configuration, with a superblock size of 0 replaced by 64 or 128. Superblocks of 128
-// pixels make wide pictures up to 1/8 faster, because the blocks of a superblock share the pixels
-// around the superblock. Even with superblocks of 128 pixels, wide pictures have enough superblocks
-// for all workers. A worker uses four times as much memory with superblocks of 128 pixels as with
-// superblocks of 64 pixels.
+// Returns the configuration, with a superblock size of 0 replaced by 128. Larger blocks read fewer
+// pixels around them (docs/constants.md). A worker uses twice as much memory with superblocks of
+// 128 pixels as with superblocks of 64 pixels.
 FullConfig Choose(const FullConfig& config) {
-  constexpr int32_t kWide = 1536;
   FullConfig chosen = config;
-  if (chosen.superblock == 0) chosen.superblock = config.width < kWide ? 64 : 128;
+  if (chosen.superblock == 0) chosen.superblock = 128;
   return chosen;
 }
 

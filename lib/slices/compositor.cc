@@ -328,6 +328,7 @@ void TakeField(size_t extended, Arena* arena, CompositorScratch* stack) {
     fill.saved = arena->Take<int16_t>(3 * size_t{kFillStep + 1} * stride + behind);
     fill.source = arena->Take<uint16_t>(extended * stride);
     fill.farthest = arena->Take<uint8_t>(extended);
+    fill.strips = arena->Take<uint64_t>(extended);
   };
   arena->Overlap(take_field, take_fill);
 }
@@ -341,7 +342,7 @@ void TakeScratch(const FullConfig& config, size_t extended, size_t max_n, Arena*
   LayeredDepth& surfaces = scratch.surfaces;
   const size_t area = extended * simd::SliceSamples(extended) + simd::kSliceLanes;
   for (int k = 0; k < simd::kSurfaces; ++k) {
-    // FindHidden reads kSliceLanes samples before the first disparity, and ColourCopies one before
+    // FindHidden reads kSliceLanes samples before the first disparity, and InsertCopies one before
     // the first colour. Both ignore their values.
     const auto take = [&](size_t samples) {
       int16_t* const before = arena->Take<int16_t>(simd::kSliceLanes + samples);

@@ -23,13 +23,11 @@ class HiddenFiller {
     for (int32_t y = 0; y < height; ++y) CopyRow(y);
     Separate(RowAt(height));
     for (int32_t y = 0; y < height; ++y) CopySources(y);
-    const auto width = static_cast<size_t>(surfaces_.width);
     for (int32_t step = kFillStep; step > 0; step /= 2) {
-      Pass(step, [&](const simd::FarRows& rows, int16_t* out) {
-        kernels_.SmoothFar(rows, step, width, out);
-      });
+      Pass(step,
+           [&](const simd::FarRows& rows, int16_t* out) { kernels_.SmoothFar(rows, step, out); });
     }
-    Pass(1, [&](const simd::FarRows& rows, int16_t* out) { kernels_.LimitFar(rows, width, out); });
+    Pass(1, [&](const simd::FarRows& rows, int16_t* out) { kernels_.LimitFar(rows, out); });
     for (int32_t y = 0; y < height; ++y) {
       if (scratch_.farthest[y] != 0) PutRow(y);
     }
@@ -66,8 +64,8 @@ class HiddenFiller {
     row.share = surfaces_.share + at;
     row.plane = surfaces_.plane;
     row.hiding = surfaces_.hiding[y];
-    const int32_t farthest =
-        kernels_.CopyFarthest(row, source, static_cast<size_t>(surfaces_.width), FarOf(y));
+    const int32_t farthest = kernels_.CopyFarthest(
+        row, source, static_cast<size_t>(surfaces_.width), FarOf(y), &scratch_.strips[y]);
     Separate(RowAt(y));
     scratch_.farthest[y] = static_cast<uint8_t>(farthest);
   }
@@ -75,7 +73,7 @@ class HiddenFiller {
   void PutRow(int32_t y) {
     for (int k = 1; k < simd::kSurfaces; ++k) {
       const size_t at = surfaces_.At(0, y);
-      kernels_.PutFarthest(FarOf(y), surfaces_.disparity[k] + at, surfaces_.hiding[y],
+      kernels_.PutFarthest(FarOf(y), surfaces_.disparity[k] + at, scratch_.strips[y],
                            surfaces_.plane, surfaces_.rgb[k] + at);
     }
   }
@@ -85,7 +83,7 @@ class HiddenFiller {
     if (scratch_.farthest[y] == 0) return;
     const uint16_t* const sources = scratch_.source + RowAt(y) + Column(0);
     int32_t first = 0;
-    for (uint64_t strips = surfaces_.hiding[y]; strips != 0;
+    for (uint64_t strips = scratch_.strips[y]; strips != 0;
          strips >>= 1, first += simd::kStripColumns) {
       if ((strips & 1) == 0) continue;
       for (int32_t x = first; x < first + simd::kStripColumns; ++x) {
@@ -135,6 +133,7 @@ class HiddenFiller {
               {from + Column(0), here + Column(0), to + Column(0)},
               stride_,
               scratch_.source + RowAt(y) + Column(0),
+              scratch_.strips[y],
               unit_},
              row + Column(0));
     }

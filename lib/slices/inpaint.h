@@ -21,8 +21,10 @@ struct FillScratch {
   int16_t* rgb;        // Height rows.
   int16_t* saved;      // kFillStep + 1 rows with the colours before the current smoothing pass.
   uint16_t* source;    // Height rows, in the format of simd::FarRow.
-  // Largest distance in pixels over which each row repeats colours; height elements.
+  // Largest distance in pixels over which each row repeats colours, and the strips of kSliceLanes
+  // pixels that repeat colours, one bit each; height elements.
   uint8_t* farthest;
+  uint64_t* strips;
 };
 
 // Largest step of the fill, in pixels of the layer. Views hardly show pixels that are more than

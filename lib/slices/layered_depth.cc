@@ -145,9 +145,12 @@ class SurfaceFinder {
   }
 
   void FindEdgesOfColumns(int32_t y, int32_t beside, int side) {
-    kernels_.FindEdges(Row(y), Row(beside), static_cast<int16_t>(step_), kDisparityBits + layer_,
-                       static_cast<size_t>(surfaces_.width), surfaces_.moved, surfaces_.behind,
-                       Edges(side, y));
+    // No view sees farther behind an edge than the range of the disparities.
+    const int unit_bits = kDisparityBits + layer_;
+    const int32_t farthest = Min(simd::FarthestEdge(unit_bits), surfaces_.high - surfaces_.low);
+    kernels_.FindEdges(Row(y), Row(beside), static_cast<int16_t>(step_), unit_bits,
+                       static_cast<int16_t>(farthest), static_cast<size_t>(surfaces_.width),
+                       surfaces_.moved, surfaces_.behind, Edges(side, y));
   }
 
   void FindRow(int32_t y) {
@@ -198,36 +201,18 @@ class SurfaceFinder {
   void CloseStrip(int32_t y, size_t x, const int16_t* copies) {
     const size_t at = surfaces_.At(0, y) + x;
     const uint64_t bit = uint64_t{1} << (x / kStripColumns);
-    const auto colour = [&](size_t plane, int16_t* rgb) {
-      kernels_.ColourCopies(Row(y) + x, surfaces_.stride, copies, surfaces_.rgb[0] + at,
-                            surfaces_.plane, plane, rgb);
-    };
-    if ((surfaces_.hiding[y] & bit) == 0) {
+    if ((surfaces_.hiding[y] & bit) == 0) {  // FindHidden has not set the sources
       surfaces_.hiding[y] |= bit;
       for (uint16_t* sources : surfaces_.sources) {
         std::memset(sources + at, 0, kStripColumns * sizeof(*sources));
       }
-      std::memcpy(surfaces_.disparity[1] + at, copies, kStripColumns * sizeof(*copies));
-      ClearStrip(surfaces_.disparity[2] + at);
-      colour(surfaces_.plane, surfaces_.rgb[1] + at);
-      return;
     }
-    int16_t rgb[3 * kStripColumns];
-    colour(kStripColumns, rgb);
-    for (size_t k = 0; k < kStripColumns; ++k) InsertCopy(at + k, copies[k], rgb + k);
-  }
-
-  // Inserts a copy in front of the other hidden surfaces, unless one of these surfaces is nearer.
-  // Pixels at which a surface ends get no copy, because they belong to one slice only.
-  void InsertCopy(size_t at, int16_t copy, const int16_t* rgb) {
-    if (copy <= surfaces_.disparity[1][at] || surfaces_.share[at] != simd::kSliceWhole) return;
-    CopyHidden(at, 1, 2, &surfaces_);
-    surfaces_.disparity[1][at] = copy;
-    surfaces_.sources[1][at] = surfaces_.sources[0][at];
-    surfaces_.sources[0][at] = 0;
-    for (size_t c = 0; c < 3; ++c) {
-      surfaces_.rgb[1][c * surfaces_.plane + at] = rgb[c * kStripColumns];
-    }
+    const simd::HiddenGroup hidden = {{surfaces_.disparity[1] + at, surfaces_.disparity[2] + at},
+                                      {surfaces_.sources[0] + at, surfaces_.sources[1] + at},
+                                      {surfaces_.rgb[1] + at, surfaces_.rgb[2] + at},
+                                      surfaces_.plane,
+                                      surfaces_.share + at};
+    kernels_.InsertCopies(Row(y) + x, surfaces_.stride, copies, surfaces_.rgb[0] + at, hidden);
   }
 
   // Sets the colour of each pixel k of a strip for which bit k of `found` is set. Adjacent pixels

@@ -210,16 +210,14 @@ TEST_CASE("configuration: all limits together are legal") {
   CHECK((bytes > 0) == (legal == STARFOCUS_OK));
 }
 
-TEST_CASE(
-    "configuration: superblock = 0 selects 128 pixels for widths >= 1536, and 64 pixels "
-    "otherwise") {
-  for (const int width : {1, 1535, 1536, 1700}) {
+TEST_CASE("configuration: superblock = 0 selects 128 pixels") {
+  for (const int width : {1, 1700}) {
     CAPTURE(width);
     const test::Scene scene = test::RandomScene(width, 3, 1, -2, 2, 9);
     test::Config config = test::ConfigFor(scene, 4);
     test::Report report;
     test::OutputOf(config, test::Params(1, 1, STARFOCUS_MODE_BLOCK), scene, &report);
-    CHECK(report.superblock == (width < 1536 ? 64 : 128));
+    CHECK(report.superblock == 128);
   }
 }
 

@@ -63,14 +63,14 @@ void CopyFarthest(Draw* draw, KernelCall* call) {
   }
   row.share = call->Input("share", Portions(whole, draw));
   const FarRow far = OutputOf(whole, draw, call);
-  call->Calls(&Kernels::CopyFarthest, row, source, count, far);
+  call->Calls(&Kernels::CopyFarthest, row, source, count, far,
+              call->Results<uint64_t>("strips", 1));
 }
 
 namespace {
 
 // Arguments of LimitFar and SmoothFar.
 struct ThreeRows {
-  size_t count, whole;
   FarRows rows;
   int16_t* out;
 };
@@ -78,7 +78,8 @@ struct ThreeRows {
 ThreeRows RowsOf(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedWidth), whole = SliceSamples(count);
   const size_t row = whole + 2 * kSliceLanes;
-  ThreeRows made = {count, whole, {{}, {}, row, nullptr, int16_t(64 << draw->Int(0, 2))}, nullptr};
+  const uint64_t strips = draw->Next() & ((uint64_t{1} << whole / kSliceLanes) - 1);
+  ThreeRows made = {{{}, {}, row, nullptr, strips, int16_t(64 << draw->Int(0, 2))}, nullptr};
   for (int k = 0; k < 3; ++k) {
     std::vector<int16_t> values = Disparities(row, draw);
     for (int16_t& value : values) {
@@ -96,13 +97,13 @@ ThreeRows RowsOf(Draw* draw, KernelCall* call) {
 
 void LimitFar(Draw* draw, KernelCall* call) {
   const ThreeRows made = RowsOf(draw, call);
-  call->Calls(&Kernels::LimitFar, made.rows, made.count, made.out);
+  call->Calls(&Kernels::LimitFar, made.rows, made.out);
 }
 
 void SmoothFar(Draw* draw, KernelCall* call) {
   const ThreeRows made = RowsOf(draw, call);
   const int32_t step = 1 << draw->Int(0, 4);
-  call->Calls(&Kernels::SmoothFar, made.rows, step, made.count, made.out);
+  call->Calls(&Kernels::SmoothFar, made.rows, step, made.out);
 }
 
 void PutFarthest(Draw* draw, KernelCall* call) {

@@ -39,6 +39,8 @@ void FindEdges(Draw* draw, KernelCall* call) {
   const size_t rows = draw->Size(2, 20, kTimedSamples / kTimedFieldWidth + 1);
   const int16_t step = draw->Rarely(2) ? int16_t(draw->Int(1, 300)) : kStep;
   const int unit_bits = draw->Int(6, 8);
+  const auto farthest =
+      int16_t(draw->Rarely(2) ? draw->Int(0, FarthestEdge(unit_bits)) : FarthestEdge(unit_bits));
   const int16_t* disparity = call->Input("disparity", MovedRows(rows, whole, step, draw));
   auto* moved = call->Results<int16_t>("moved", whole);
   auto* behind = call->Results<int16_t>("behind", whole);
@@ -46,7 +48,7 @@ void FindEdges(Draw* draw, KernelCall* call) {
   std::fill_n(moved, whole, int16_t{INT16_MAX});
   call->RunsEach(rows - 1, [=](const Kernels& kernels, size_t row) {
     const int16_t* before = disparity + row * whole;
-    kernels.FindEdges(before + whole, before, step, unit_bits, count, moved, behind,
+    kernels.FindEdges(before + whole, before, step, unit_bits, farthest, count, moved, behind,
                       distance + row * whole);
   });
 }
@@ -76,21 +78,40 @@ void FindCopies(Draw* draw, KernelCall* call) {
   });
 }
 
-void ColourCopies(Draw* draw, KernelCall* call) {
+void InsertCopies(Draw* draw, KernelCall* call) {
   const size_t groups = draw->Size(1, 4, kTimedSamples / kSliceLanes);
-  const size_t stride = groups * kSliceLanes + 2, plane = 3 * stride + draw->Size(0, 7, 0);
+  const size_t whole = groups * kSliceLanes, stride = whole + 2;
+  const size_t plane = 3 * stride + draw->Size(0, 7, 0);
   const int16_t* row =
       call->Input("field", Ints<int16_t>(3 * stride, -2, 2, draw), kPadding) + stride + 1;
   const int16_t* rgb =
       call->Input("rgb", Ints<int16_t>(3 * plane, 0, INT16_MAX, draw), kPadding) + stride + 1;
-  std::vector<int16_t> lower = Ints<int16_t>(groups * kSliceLanes, -2, 2, draw);
+  std::vector<int16_t> lower = Ints<int16_t>(whole, -2, 2, draw);
   for (int16_t& copy : lower) copy = draw->Int(0, 3) == 0 ? kNoSurface : copy;
   const int16_t* copies = call->Input("copies", lower, kPadding);
-  auto* out = call->Results<int16_t>("out", 3 * groups * kSliceLanes);
+  const int before = draw->Int(-4, 1);
+  const uint8_t* share = call->Input("share", Filled<uint8_t>(whole, [&] {
+                                       return draw->Int(0, 4) == 0 ? kSliceEnd : kSliceWhole;
+                                     }));
+  HiddenGroup hidden = {};
+  hidden.plane = plane;
+  for (int k = 0; k < kSurfaces - 1; ++k) {
+    hidden.disparity[k] = call->Results<int16_t>("disparity", whole);
+    hidden.source[k] = call->Results<uint16_t>("source", whole);
+    hidden.rgb[k] = call->OutputRows<int16_t>("out", 3, plane, whole);
+    for (size_t n = 0; n < whole; ++n) {
+      hidden.disparity[k][n] = draw->Int(0, 1) == 0 ? kNoSurface : int16_t(before - k);
+      hidden.source[k][n] = uint16_t(draw->Int(0, UINT16_MAX));
+    }
+  }
   call->RunsEach(groups, [=](const Kernels& kernels, size_t group) {
     const size_t n = group * kSliceLanes;
-    kernels.ColourCopies(row + n, ptrdiff_t(stride), copies + n, rgb + n, plane,
-                         groups * kSliceLanes, out + n);
+    HiddenGroup to = hidden;
+    for (int k = 0; k < kSurfaces - 1; ++k) {
+      to.disparity[k] += n, to.source[k] += n, to.rgb[k] += n;
+    }
+    to.share = share + n;
+    kernels.InsertCopies(row + n, ptrdiff_t(stride), copies + n, rgb + n, to);
   });
 }
 

@@ -48,8 +48,7 @@ export interface Settings {
   /** Upper limit of the blur radius aperture * |disparity - focus| in pixels, (0, 128]; default 32. The limit does not
    *  affect the pictures. Larger values require more memory. */
   maxBlur?: number;
-  /** Side of the superblocks in pixels. The engine splits superblocks into blocks. The default 0 means 128 if the width
-   *  is at least 1536 pixels, and 64 otherwise. */
+  /** Side of the superblocks in pixels. The engine splits superblocks into blocks. The default 0 means 128. */
   superblock?: 0 | 32 | 64 | 128 | 256;
   /** Threshold of the deblocking filter in codes, an integer in [0, 255]; default 35; 0: off. */
   deblocking?: number;

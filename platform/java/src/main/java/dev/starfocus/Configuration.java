@@ -45,7 +45,7 @@ public final class Configuration {
 
   /**
    * Side of the superblocks in pixels: 32, 64, 128, 256 or 0. The engine splits superblocks into
-   * blocks. 0, the default, means 128 if the width is at least 1536 pixels, and 64 otherwise.
+   * blocks. 0, the default, means 128.
    */
   public int superblock;
   /**
