@@ -237,12 +237,13 @@ void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, Slice
   placed->plane = PlaneSamples(static_cast<size_t>(rect.width), static_cast<size_t>(placed->reach));
 }
 
-void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces,
-               const simd::DisparityRange* ranges, const Slice& slice, const Rect& rect,
-               int16_t* filtered, const SlicePlane& placed) {
+uint64_t FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces,
+                   const simd::DisparityRange* ranges, const Slice& slice, const Rect& rect,
+                   int16_t* filtered, const SlicePlane& placed) {
   const int32_t x = rect.x - placed.reach, y = rect.y - placed.reach;
   const int32_t width = rect.width + 2 * placed.reach;
   int16_t* samples = placed.samples;
+  int32_t selected = 0;
   for (int32_t row = 0; row < placed.rows; ++row, samples += 4 * placed.plane) {
     const int32_t from = Clamp(y + row, 0, surfaces.height - 1);
     const simd::DisparityRange& range = ranges[from / kRangeRows];
@@ -250,11 +251,13 @@ void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces,
       std::memset(samples, 0, 4 * placed.plane * sizeof(*samples));
       placed.cover[row] = {0, 0};
     } else {
+      ++selected;
       placed.cover[row] =
           SelectRow(kernels, surfaces, slice, {x, from, width, 1}, placed.plane, samples);
     }
   }
   if (placed.subaperture > kBoxSubaperture) Spread(kernels, filtered, placed);
+  return PixelsIn(width, selected);
 }
 
 }  // namespace starfocus

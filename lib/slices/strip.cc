@@ -111,14 +111,15 @@ class Strip {
         end_(end),
         sums_(sums) {}
 
-  // Composites one column of views at a time.
-  void Composite(int16_t* memory, CancelToken* cancel) {
+  // Composites one column of views at a time. Returns the number of pixels that were shifted.
+  uint64_t Composite(int16_t* memory, CancelToken* cancel) {
     FindRows();
     PlaceSlices(memory);
     for (int32_t i = -stack_.grid->n(); i <= stack_.grid->n(); ++i) {
-      if (!GoesOn(cancel, samples_ * (2 * LastAcross(aperture_, i) + 1))) return;
+      if (!GoesOn(cancel, samples_ * (2 * LastAcross(aperture_, i) + 1))) break;
       AddColumn(i);
     }
+    return shifted_;
   }
 
  private:
@@ -209,6 +210,7 @@ class Strip {
     const int32_t end = Min(rows_[k].last + Max(a, b) + kRowsAhead, filled_[k].last);
     if (first >= end) return;
     const auto rows = static_cast<size_t>(end - first);
+    shifted_ += rows * simd::kSliceLanes;
     int8_t* near = shown_[k].near + first;
     // Resets the marks of rows, which still hold the values of the previous column of views.
     std::memset(near - kRowsAhead, simd::kNothingNear, rows + simd::kRowsAhead);
@@ -276,6 +278,7 @@ class Strip {
   uint32_t* const sums_;
   int16_t weights_[kViewsAtOnce];  // weights of the current group of views
   int64_t samples_ = 0;  // samples composited in one view, four per pixel, summed over all slices
+  uint64_t shifted_ = 0;
   int32_t seen_ = 0;
   int32_t seen_slices_[kMaxSlices];
   Range rows_[kMaxSlices];    // For each slice, the rows of the cell pairs that show the slice.
@@ -285,10 +288,10 @@ class Strip {
 
 }  // namespace
 
-void CompositeStrip(const simd::Kernels& kernels, const SliceStack& stack, const SlicePlane* planes,
-                    const CellPair* first, const CellPair* end, int16_t* memory, uint32_t* sums,
-                    CancelToken* cancel) {
-  Strip(kernels, stack, planes, first, end, sums).Composite(memory, cancel);
+uint64_t CompositeStrip(const simd::Kernels& kernels, const SliceStack& stack,
+                        const SlicePlane* planes, const CellPair* first, const CellPair* end,
+                        int16_t* memory, uint32_t* sums, CancelToken* cancel) {
+  return Strip(kernels, stack, planes, first, end, sums).Composite(memory, cancel);
 }
 
 }  // namespace starfocus
