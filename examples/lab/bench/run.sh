@@ -4,7 +4,8 @@
 #
 # Measures time and error of every mode, and writes a report: build/bench/report.html.
 #   --quick   small pictures, few of them: a minute or two
-#   --speed   only compares the time with shift-and-add of 13 views, at each vector width of the machine
+#   --speed   only compares the time with shift-and-add of 13 views, at each vector width of the machine: block mode with
+#             5 views and one worker, on the scene portrait and the data set leaves
 #   --check   only compares instruction counts with examples/lab/bench/baseline.txt
 #   --record  writes that file anew
 #   --micro   only times kernels, the line scan and small pictures
