@@ -32,9 +32,9 @@ scene() {
 
 # speed: compares the engine with shift-and-add. Minima of 20 rounds hardly depend on other processes.
 speed() {
-  local fields="build/bench/speed 10 none build/bench/speed -11 none" leaves=../shared/data/leaves
+  local fields="build/bench/portrait-speed 10 none build/bench/portrait-speed -11 none" leaves=../shared/data/leaves
   ./do build starfocus_lab starfocus-bench-speed || exit 1
-  scene speed --name portrait --transfer none --truth=10,1 --truth=-11,1
+  scene portrait-speed --name portrait --transfer none --truth=10,1 --truth=-11,1
   [ ! -f $leaves/disparity.pfm ] || fields="$fields $leaves 9 none"
   $BUILD/starfocus-bench-speed 20 $fields || fail "comparing the speed failed"
 }
