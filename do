@@ -14,6 +14,7 @@
 #           notices; --sample N of them (50); --help tells the rest
 #   bench   time and error of every mode, with a report: build/bench/report.html
 #           --quick   small pictures, few of them: a minute or two
+#           --speed   only compares the time with shift-and-add of 13 views, at each vector width of the machine
 #           --check   only compares instruction counts with examples/lab/bench/baseline.txt
 #           --record  writes that file anew
 #           --micro   only times kernels, the line scan and small pictures

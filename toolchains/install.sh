@@ -34,6 +34,7 @@ libsixel-bin             test   sixel2png
 clang                    fuzz   clang
 libclang-rt-14-dev       fuzz   -
 libbenchmark-dev         -      benchmark/benchmark.h
+llvm                     -      llvm-mca
 universal-ctags          -      ctags
 gnuplot-nox              -      gnuplot
 qemu-user                -      qemu-aarch64

@@ -314,6 +314,37 @@ Json LayersJson(const EngineResult& result, bool predicted) {
   return layers;
 }
 
+// Returns the number of pixels that each stage touched, as shares of the picture or region. Pixels
+// of layers 1 and 2 count like other pixels, because they cost as much.
+Json TouchedJson(const EngineTask& task, const EngineResult& result) {
+  const starfocus::Config& config = task.config;
+  const starfocus_region& region = task.params.region;
+  const uint64_t pixels = region.width == 0 ? uint64_t(config.width) * uint64_t(config.height)
+                                            : uint64_t(region.width) * uint64_t(region.height);
+  const starfocus_report& report = result.report;
+  Json json;
+  const auto set = [&](const char* stage, uint64_t touched) {
+    json.Set(stage, Share(touched, pixels));
+  };
+  set("converted", report.converted_pixels);
+  set("measured", report.measured_pixels);
+  set("copied", report.copied_pixels);
+  set("gathered", report.gathered_pixels);
+  const auto sum = [&](const char* stage, uint64_t starfocus_layer_report::*member) {
+    uint64_t touched = 0;
+    for (const starfocus_layer_report& layer : result.layers) touched += layer.*member;
+    set(stage, touched);
+  };
+  sum("surfaces", &starfocus_layer_report::surface_pixels);
+  sum("hidden", &starfocus_layer_report::hidden_pixels);
+  sum("filled", &starfocus_layer_report::filled_pixels);
+  sum("selected", &starfocus_layer_report::selected_pixels);
+  sum("shifted", &starfocus_layer_report::shifted_pixels);
+  sum("composited", &starfocus_layer_report::composited_pixels);
+  set("rendered", report.rendered_samples / 3);
+  return json;
+}
+
 // Returns the number of superblocks of the picture or region.
 uint64_t Superblocks(const EngineTask& task, int side) {
   const starfocus::Config& config = task.config;
@@ -370,6 +401,7 @@ void AddFigures(const EngineTask& task, const EngineResult& result, Json* json) 
   json->Set("layers", LayersJson(result, task.params.study.mode == STARFOCUS_MODE_BLOCK));
   json->Set("copied_pixels", result.report.copied_pixels);
   json->Set("gathered_pixels", result.report.gathered_pixels);
+  json->Set("touched", TouchedJson(task, result));
   json->Set("seconds_refocus", result.seconds);
   json->Set("workspace_bytes", result.workspace_bytes);
   json->Set("simd_target", starfocus_simd_target());

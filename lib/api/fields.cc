@@ -79,7 +79,8 @@ size_t starfocus_fields(const char* structure, const starfocus_field** fields, i
             FIELD_AS(region, region), FIELD_AS(previous, previous), FIELD_AS(study, study))
   STRUCTURE(report, FIELD(size), FIELD(n), FIELD(rendered_views), FIELD(superblock), FIELD(r_max),
             FIELD(rendered_samples), FIELD(copied_pixels), FIELD(gathered_pixels),
-            FIELD(reused_blocks), FIELD(unknown_pixels), FIELD_AS(layers, layer_report))
+            FIELD(reused_blocks), FIELD(unknown_pixels), FIELD_AS(layers, layer_report),
+            FIELD(converted_pixels), FIELD(measured_pixels))
   STRUCTURE(disparity_stats, FIELD(min), FIELD(max), FIELD(invalid))
   STRUCTURE(field, FIELD(name), FIELD(structure), FIELD(offset), FIELD(count), FIELD(type))
   STRUCTURE(disparity_output, FIELD(disparity), FIELD(disparity_stride), FIELD(confidence),
@@ -95,7 +96,9 @@ size_t starfocus_fields(const char* structure, const starfocus_field** fields, i
             FIELD_AS(timing, timing), FIELD(line_scan))
   STRUCTURE(block, FIELD(x), FIELD(y), FIELD(width), FIELD(height), FIELD(layer), FIELD(n))
   STRUCTURE(layer_report, FIELD(blocks), FIELD(pixels), FIELD(views), FIELD(rendered_samples),
-            FIELD(predicted_ps), FIELD(measured_ns))
+            FIELD(predicted_ps), FIELD(measured_ns), FIELD(surface_pixels), FIELD(hidden_pixels),
+            FIELD(filled_pixels), FIELD(selected_pixels), FIELD(shifted_pixels),
+            FIELD(composited_pixels))
   STRUCTURE(observer, FIELD(size), FIELD(clock), FIELD(clock_data), FIELD(on_block),
             FIELD(on_block_data))
   return 0;

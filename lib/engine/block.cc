@@ -155,8 +155,16 @@ void RefocusViews(const EngineState& engine, const Block& block, const Plane<uin
   const ViewGrid grid = ViewGridOf(engine, block, scratch->aperture_weights);
   const BlockCells cells = {&engine.stripe.plan.gathered, block.rect, block.layer};
   const BlockCells* const gathered = block.gathers ? &cells : nullptr;
-  const RenderJob job = {&engine.input,    block.layer, &grid,      block.rendered,   block.border,
-                         &scratch->cancel, gathered,    lens.r_max, IsBenchmark(lens)};
+  const RenderJob job = {&engine.input,
+                         block.layer,
+                         &grid,
+                         block.rendered,
+                         block.border,
+                         &scratch->cancel,
+                         gathered,
+                         lens.r_max,
+                         IsBenchmark(lens),
+                         &scratch->counts.layers[block.layer]};
   // If some cells of a block at layer 1 or 2 are blurred without views, GatherBlock upsamples the
   // whole block later.
   const bool in_part = block.layer > 0 && block.gathers;

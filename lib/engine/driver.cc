@@ -75,6 +75,7 @@ starfocus_status ReadRows(const Range& rows, const Plane<int16_t>* disparity, En
         ReadView(in, 0, row, engine->rings.View(0).Row(row));
       }
       if (!has_map) continue;
+      scratch.counts.converted_pixels += PixelsIn(config.width, group.count());
       scratch.counts.depth_flags |= ReadMap(in, group, disparity, &scratch.counts.unknown_pixels);
     }
   };

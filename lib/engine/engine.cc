@@ -197,6 +197,12 @@ void Add(const starfocus_layer_report& part, starfocus_layer_report* sum) {
   sum->rendered_samples += part.rendered_samples;
   sum->predicted_ps += part.predicted_ps;
   sum->measured_ns += part.measured_ns;
+  sum->surface_pixels += part.surface_pixels;
+  sum->hidden_pixels += part.hidden_pixels;
+  sum->filled_pixels += part.filled_pixels;
+  sum->selected_pixels += part.selected_pixels;
+  sum->shifted_pixels += part.shifted_pixels;
+  sum->composited_pixels += part.composited_pixels;
 }
 
 void Add(const Counts& counts, FullReport* report) {
@@ -207,6 +213,8 @@ void Add(const Counts& counts, FullReport* report) {
   report->copied_pixels += counts.copied_pixels;
   report->gathered_pixels += counts.gathered_pixels;
   report->unknown_pixels += counts.unknown_pixels;
+  report->converted_pixels += counts.converted_pixels;
+  report->measured_pixels += counts.measured_pixels;
 }
 
 }  // namespace

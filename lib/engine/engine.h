@@ -76,6 +76,8 @@ struct Counts {
   uint64_t copied_pixels;
   uint64_t gathered_pixels;
   uint64_t unknown_pixels;
+  uint64_t converted_pixels;
+  uint64_t measured_pixels;
   uint32_t depth_flags;  // flags (simd::kUnknownDepth) of the rows that were read
 };
 

@@ -221,10 +221,12 @@ starfocus_status PlanStripe(const Range& rows, EngineState* engine) {
     plan.gathered.first_row = rows.first / kCellSize;
     const CellGrid& cells = engine->stripe.cells;
     const int32_t first_row = PlaceCells(rows, lens, &engine->stripe);
-    const auto measure = [&](int32_t column, int32_t) {
+    const auto measure = [&](int32_t column, int32_t worker) {
       if (plan.measured[column] == 0) return;
       const int32_t per_block = plan.side / kCellSize, first = column * per_block;
       const int32_t last = Min(first + per_block, cells.columns);
+      engine->scratch[worker].counts.measured_pixels +=
+          PixelsIn(kCellSize * (last - first), kCellSize * (cells.last_row - first_row));
       for (int32_t row = first_row; row < cells.last_row; ++row) {
         MeasureCells(*engine->kernels, engine->input, lens.scale, row, {first, last},
                      cells.At(first, row));

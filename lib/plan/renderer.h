@@ -18,6 +18,7 @@
 #include "lib/optics/view_weights.h"
 #include "lib/plan/cells.h"
 #include "lib/plan/smooth_cells.h"
+#include "starfocus/experimental.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -52,10 +53,11 @@ struct RenderJob {
   const ViewGrid* grid;
   Rect rect;
   Border border;
-  CancelToken* cancel;         // Null: the job is never cancelled.
-  const BlockCells* gathered;  // Null: all cells are rendered from views.
-  double r_max;                // Largest blur radius of the lens in pixels.
-  bool is_benchmark;           // True: benchmark mode, which renders finer slices.
+  CancelToken* cancel;             // Null: the job is never cancelled.
+  const BlockCells* gathered;      // Null: all cells are rendered from views.
+  double r_max;                    // Largest blur radius of the lens in pixels.
+  bool is_benchmark;               // True: benchmark mode, which renders finer slices.
+  starfocus_layer_report* counts;  // The slice renderer adds the pixels that its stages touch.
 };
 
 // Scratch memory of a renderer for one worker. Each renderer derives its own structure.

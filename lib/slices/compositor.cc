@@ -35,8 +35,9 @@ class Batch {
       const CellPair* end = first;
       while (end < last && end->x == x) ++end;
       if (first < end) {
-        CompositeStrip(*job_.input->kernels, stack_, planes_, first, end, strip_memory,
-                       scratch_.sums, job_.cancel);
+        job_.counts->shifted_pixels +=
+            CompositeStrip(*job_.input->kernels, stack_, planes_, first, end, strip_memory,
+                           scratch_.sums, job_.cancel);
       }
       FinishStrip(x, first, end);
       first = end;
@@ -62,8 +63,8 @@ class Batch {
     }
     int16_t* const behind = reinterpret_cast<int16_t*>(next);
     for (int32_t k = 0; k < stack_.count; ++k) {
-      FillSlice(*job_.input->kernels, scratch_.surfaces, stack_.slices[k], rect, behind,
-                planes_[k]);
+      job_.counts->selected_pixels += FillSlice(*job_.input->kernels, scratch_.surfaces,
+                                                stack_.slices[k], rect, behind, planes_[k]);
     }
     return behind;
   }
@@ -92,8 +93,9 @@ class Batch {
           if (cover.some != 0) pair.shown[pair.count++] = static_cast<uint8_t>(k);
           if (cover.all != 0) break;
         }
-        pixels += static_cast<uint64_t>(pair.count) *
-                  static_cast<uint64_t>(pair.rows * Min(simd::kStripColumns, rect_.width - x));
+        const uint64_t inside = PixelsIn(Min(simd::kStripColumns, rect_.width - x), pair.rows);
+        job_.counts->composited_pixels += inside;
+        pixels += static_cast<uint64_t>(pair.count) * inside;
       }
     }
     return pixels;
@@ -164,6 +166,17 @@ class Batch {
   int32_t pairs_ = 0;
 };
 
+void CountSurfaces(const LayeredDepth& surfaces, starfocus_layer_report* counts) {
+  const uint64_t pixels = PixelsIn(surfaces.width, surfaces.height);
+  counts->surface_pixels += pixels;
+  if (surfaces.repeats) counts->filled_pixels += pixels;
+  for (int32_t y = 0; y < surfaces.height; ++y) {
+    for (uint64_t strips = surfaces.hiding[y]; strips != 0; strips &= strips - 1) {
+      counts->hidden_pixels += simd::kSliceLanes;
+    }
+  }
+}
+
 // Finds the surfaces of the rectangle and copies the rectangle's centre view to the rows of
 // CentreRow. Returns the position of the rectangle in `scratch->surfaces`, in pixels.
 Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* accumulators) {
@@ -181,6 +194,7 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
                 field.Rgb(inner.x, inner.y + y), row * sizeof(*field.rgb));
   }
   InpaintHidden(*job.input->kernels, job.layer, scratch->fill, &scratch->surfaces);
+  CountSurfaces(scratch->surfaces, job.counts);
   RemoveFocusRange(job.grid->focus, &scratch->surfaces);
   FindStripRanges(*job.input->kernels, scratch->surfaces);
   return inner;

@@ -62,10 +62,11 @@ inline constexpr size_t kPixelSums = 4;
 // Writes the sums over all views of the cell pairs [first, end), which lie at one column of a part
 // of a bucket, to `sums`: kPixelSums per pixel, in the order of rows. There is at least one pair.
 // `planes` has one plane per slice, filled for the part of the bucket. `memory` is scratch memory
-// of StripBytes for each slice. `cancel` may be null.
-void CompositeStrip(const simd::Kernels& kernels, const SliceStack& stack, const SlicePlane* planes,
-                    const CellPair* first, const CellPair* end, int16_t* memory, uint32_t* sums,
-                    CancelToken* cancel);
+// of StripBytes for each slice. `cancel` may be null. Returns the number of pixels of slices that
+// were shifted.
+uint64_t CompositeStrip(const simd::Kernels& kernels, const SliceStack& stack,
+                        const SlicePlane* planes, const CellPair* first, const CellPair* end,
+                        int16_t* memory, uint32_t* sums, CancelToken* cancel);
 
 // Returns a pointer to the sums of row `row` in the buffer `sums` of CompositeStrip.
 inline uint32_t* SumsOfRow(uint32_t* sums, int32_t row) {

@@ -2,6 +2,7 @@
 #include "lib/slices/slice_plane.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cstring>
 
 namespace starfocus {
@@ -253,8 +254,9 @@ void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, Slice
   placed->plane = PlaneSamples(static_cast<size_t>(rect.width), static_cast<size_t>(placed->reach));
 }
 
-void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces, const Slice& slice,
-               const Rect& rect, int16_t* filtered, const SlicePlane& placed) {
+uint64_t FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces, const Slice& slice,
+                   const Rect& rect, int16_t* filtered, const SlicePlane& placed) {
+  uint64_t selected = 0;
   const int32_t x = rect.x - placed.reach, y = rect.y - placed.reach;
   const int32_t width = rect.width + 2 * placed.reach;
   const Range columns = {Max(x, 0), Min(x + width, surfaces.width)};
@@ -263,6 +265,7 @@ void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces, const
     const int32_t from = Clamp(y + row, 0, surfaces.height - 1), left = surfaces.height - from;
     rows = from > y + row ? 1 : Min(kRangeRows - from % kRangeRows, Min(placed.rows - row, left));
     const uint64_t groups = FindGroups(surfaces, slice, columns, from);
+    selected += std::bitset<64>(groups).count() * static_cast<size_t>(rows) * simd::kSliceLanes;
     if (groups != 0) {
       SelectRows(kernels, surfaces, slice, groups, {x, from, width, rows}, row, placed);
     } else {
@@ -270,6 +273,7 @@ void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces, const
     }
   }
   if (placed.subaperture > kBoxSubaperture) Spread(kernels, filtered, placed);
+  return selected;
 }
 
 }  // namespace starfocus

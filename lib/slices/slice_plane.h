@@ -189,9 +189,9 @@ void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, Slice
 // outermost pixels beyond the ends of the surfaces. For wide subapertures, the function also
 // applies the subaperture as a filter. `filtered` is scratch memory of FilteredBytes. Skips strips
 // whose ranges contain no disparity of the slice. The caller sets the pointers `samples` and
-// `cover` of `placed`.
-void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces, const Slice& slice,
-               const Rect& rect, int16_t* filtered, const SlicePlane& placed);
+// `cover` of `placed`. Returns the number of pixels that were read.
+uint64_t FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces, const Slice& slice,
+                   const Rect& rect, int16_t* filtered, const SlicePlane& placed);
 
 // Returns the strips of a slice's row that some view shows in the strip at column `x` of the
 // rectangle. Bit k of the result stands for strip k of the row, as in SliceCover.

@@ -112,14 +112,15 @@ class Strip {
         end_(end),
         sums_(sums) {}
 
-  // Composites one column of views at a time.
-  void Composite(uint8_t* memory, CancelToken* cancel) {
+  // Composites one column of views at a time. Returns the number of pixels that were shifted.
+  uint64_t Composite(uint8_t* memory, CancelToken* cancel) {
     FindRows();
     PlaceSlices(memory);
     for (int32_t i = -stack_.grid->n(); i <= stack_.grid->n(); ++i) {
-      if (!GoesOn(cancel, samples_ * (2 * LastAcross(aperture_, i) + 1))) return;
+      if (!GoesOn(cancel, samples_ * (2 * LastAcross(aperture_, i) + 1))) break;
       AddColumn(i);
     }
+    return shifted_;
   }
 
  private:
@@ -196,6 +197,7 @@ class Strip {
     const simd::SliceRows rows = {
         placed.samples + from * 4 * placed.plane + first_->x + placed.reach, placed.plane,
         placed.cover + first, StripsOf(placed, first_->x), placed.subaperture <= kBoxSubaperture};
+    shifted_ += PixelsIn(simd::kStripColumns, Max(end - first, 0));
     kernels_.ShiftSlice(rows, stack_.Offset(k, i), from, static_cast<size_t>(Max(first, end)),
                         shown_[k]);
   }
@@ -281,6 +283,7 @@ class Strip {
   uint32_t* const sums_;
   int16_t weights_[kViewsAtOnce];  // weights of the current group of views
   int64_t samples_ = 0;  // samples composited in one view, four per pixel, summed over all slices
+  uint64_t shifted_ = 0;
   int32_t seen_ = 0;
   int32_t seen_slices_[kMaxSlices];
   Range rows_[kMaxSlices];    // For each slice, the rows of the cell pairs that show the slice.
@@ -290,10 +293,10 @@ class Strip {
 
 }  // namespace
 
-void CompositeStrip(const simd::Kernels& kernels, const SliceStack& stack, const SlicePlane* planes,
-                    const CellPair* first, const CellPair* end, int16_t* memory, uint32_t* sums,
-                    CancelToken* cancel) {
-  Strip(kernels, stack, planes, first, end, sums)
+uint64_t CompositeStrip(const simd::Kernels& kernels, const SliceStack& stack,
+                        const SlicePlane* planes, const CellPair* first, const CellPair* end,
+                        int16_t* memory, uint32_t* sums, CancelToken* cancel) {
+  return Strip(kernels, stack, planes, first, end, sums)
       .Composite(reinterpret_cast<uint8_t*>(memory), cancel);
 }
 

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the metrics of the bench with pictures and numbers whose results are known.
+// Tests the metrics of the bench with pictures and numbers whose results are known, and the rival
+// of its comparison of speed.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "examples/lab/bench/metrics.h"
+#include "examples/lab/bench/shift_and_add.h"
+#include "simd/kernels.h"
 
 namespace bench_test {
 namespace {
@@ -86,6 +92,38 @@ TEST_CASE("Median, spread and quantiles of known numbers are exact") {
   CHECK(Quantile({4, 0, 2}, 0) == 0);
   CHECK(Quantile({4, 0, 2}, 0.75) == 3);
   CHECK(Quantile({4, 0, 2}, 1) == 4);
+}
+
+TEST_CASE("Shift-and-add of a plane in focus is the centre view, on every SIMD target") {
+  constexpr double kFocus = 2.5;
+  const auto ramp = [](double x, double y) { return int(60 + 2 * x + 4 * y); };
+  Field field;
+  field.transfer = STARFOCUS_TRANSFER_NONE;
+  for (int k = 0; k < 17; ++k) {
+    double u = 0, v = 0;
+    starfocus_view_position(k, &u, &v, nullptr);
+    Image view(41, 23);
+    for (int y = 0; y < view.height; ++y) {
+      for (int x = 0; x < view.width; ++x) {
+        std::fill_n(view.row(y) + 3 * x, 3, uint8_t(ramp(x + u * kFocus, y + v * kFocus)));
+      }
+    }
+    field.data.views.push_back(view);
+  }
+  std::vector<std::string> targets = {""};
+  for (size_t i = 0; starfocus::simd::KernelsOfTarget(i) != nullptr; ++i) {
+    targets.push_back(starfocus::simd::KernelsOfTarget(i)->name);
+  }
+  Image first;
+  for (const std::string& target : targets) {
+    Image out(41, 23);
+    ShiftAndAdd(field, 17, kFocus, target).Run(&out);
+    for (int y = 3; y < out.height - 3; ++y) {  // farther out, views repeat their edges
+      for (int x = 3; x < out.width - 3; ++x) CHECK(out.row(y)[3 * x] == ramp(x, y));
+    }
+    if (first.pixels.empty()) first = out;
+    CHECK(out.pixels == first.pixels);
+  }
 }
 
 }  // namespace

@@ -156,7 +156,10 @@ void Append(const test::Report& report, Bytes* bytes) {
   append(uint64_t(report.rendered_views));
   append(report.rendered_samples);
   for (const starfocus_layer_report& layer : report.layers) {
-    for (const uint64_t count : {layer.blocks, layer.views, layer.pixels, layer.predicted_ps}) {
+    for (const uint64_t count :
+         {layer.blocks, layer.views, layer.pixels, layer.predicted_ps, layer.surface_pixels,
+          layer.hidden_pixels, layer.filled_pixels, layer.selected_pixels, layer.shifted_pixels,
+          layer.composited_pixels}) {
       append(count);
     }
   }

@@ -9,6 +9,7 @@
 
 #include "examples/lab/bench/metrics.h"
 #include "examples/lab/bench/rivals.h"
+#include "examples/lab/bench/shift_and_add.h"
 #include "examples/lab/bench/timed_engine.h"
 #include "simd/kernels.h"
 #include "starfocus/experimental.h"
@@ -40,7 +41,8 @@ Error Start(const Group& group, const Entry& entry, Run* run) {
     return Prepare(*group.field, entry.task, group.focus, group.aperture, &run->timed);
   }
   const LightField& data = group.field->data;
-  run->shift_and_add = std::make_unique<ShiftAndAdd>(data, entry.task.views, group.focus);
+  run->shift_and_add =
+      std::make_unique<ShiftAndAdd>(*group.field, entry.task.views, group.focus, entry.task.target);
   run->timed.picture = Image(data.width(), data.height());
   return {};
 }

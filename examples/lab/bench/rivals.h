@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rivals are other methods of refocusing that the bench compares with the engine. rivals.cc
-// implements shift-and-add of the captured views. The other rivals are installed programs that blur
-// the centre view by a map of blur radii. Used by bench.cc and measure.cc.
+// Installed programs that blur the centre view by a map of blur radii, which the bench compares
+// with the engine. Used by bench.cc and measure.cc.
 #ifndef STARFOCUS_EXAMPLES_LAB_BENCH_RIVALS_H_
 #define STARFOCUS_EXAMPLES_LAB_BENCH_RIVALS_H_
 
@@ -12,26 +11,6 @@
 #include "platform/result.h"
 
 namespace starfocus::bench {
-
-// Computes the weighted mean of `views` captured views, each shifted with bilinear interpolation so
-// that disparity `focus` is in focus. The result is the picture through a lens of aperture 1 that
-// consists of `views` pinholes.
-class ShiftAndAdd {
- public:
-  ShiftAndAdd(const LightField& data, int views, double focus);
-  void Run(Image* out);
-
- private:
-  void AddView(const Image& view, int index, int y);
-
-  const LightField& data_;
-  const int views_;
-  const double focus_;
-  int pad_ = 0;                // Samples of padding on each side of a row.
-  std::vector<uint8_t> row_;   // Row that is interpolated between two rows of a view, with padding.
-  std::vector<uint16_t> sum_;  // Weighted sums of a row of the picture.
-  std::vector<uint16_t> weights_;
-};
 
 // A program that blurs the centre view by a map of blur radii.
 struct Tool {

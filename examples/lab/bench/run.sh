@@ -1,9 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: ./do bench [--quick | --check | --record | --micro]
+# usage: ./do bench [--quick | --speed | --check | --record | --micro]
 #
 # Measures time and error of every mode, and writes a report: build/bench/report.html.
 #   --quick   small pictures, few of them: a minute or two
+#   --speed   only compares the time with shift-and-add of 13 views, at each vector width of the machine: block mode with
+#             5 views and one worker, on the scene portrait and the data set leaves
 #   --check   only compares instruction counts with examples/lab/bench/baseline.txt
 #   --record  writes that file anew
 #   --micro   only times kernels, the line scan and small pictures
@@ -26,6 +28,15 @@ scene() {
   local folder=build/bench/$1
   shift
   [ -f "$folder/meta.txt" ] || lab "made the light field $folder" scene "$folder" "$@"
+}
+
+# speed: compares the engine with shift-and-add. Minima of 20 rounds hardly depend on other processes.
+speed() {
+  local fields="build/bench/portrait-speed 10 none build/bench/portrait-speed -11 none" leaves=../shared/data/leaves
+  ./do build starfocus_lab starfocus-bench-speed || exit 1
+  scene portrait-speed --name portrait --transfer none --truth=10,1 --truth=-11,1
+  [ ! -f $leaves/disparity.pfm ] || fields="$fields $leaves 9 none"
+  $BUILD/starfocus-bench-speed 20 $fields || fail "comparing the speed failed"
 }
 
 # measure [--quick]: measures every mode, and writes the report.
@@ -63,5 +74,6 @@ case "$*" in
   --check) check_counts check ;;
   --record) check_counts record ;;
   --micro) micro ;;
-  *) fail "./do bench: expected --quick, --check, --record, --micro or nothing, found '$*'" ;;
+  --speed) speed ;;
+  *) fail "./do bench: expected --quick, --speed, --check, --record, --micro or nothing, found '$*'" ;;
 esac

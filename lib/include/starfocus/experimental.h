@@ -144,6 +144,16 @@ typedef struct starfocus_layer_report {
   uint64_t predicted_ps;     /**< Time predicted by starfocus_timing, picoseconds. */
   uint64_t measured_ns; /**< Time measured by starfocus_observer.clock, summed over the workers,
                              nanoseconds; 0 without a clock. */
+  /* Work of rendering slices: pixels of the layer that each stage touched. A pixel counts as often
+     as it was touched. 0 for line scans. */
+  uint64_t surface_pixels; /**< Pixels whose surfaces were found, with the borders of rectangles. */
+  uint64_t hidden_pixels;  /**< Pixels of the groups of 16 that have hidden surfaces. */
+  uint64_t filled_pixels;  /**< Pixels of the rectangles in which colours of hidden surfaces were
+                                continued. */
+  uint64_t selected_pixels;   /**< Pixels of surfaces that were read to fill slices. */
+  uint64_t shifted_pixels;    /**< Pixels of slices that were shifted along rows. */
+  uint64_t composited_pixels; /**< Pixels that were composited; `rendered_samples` also counts their
+                                   views and slices. */
 } starfocus_layer_report;
 
 /** Measures an engine. Each pointer may be null. Call starfocus_observer_init first. */

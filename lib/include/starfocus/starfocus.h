@@ -558,6 +558,9 @@ typedef struct starfocus_report {
   /** Receives the statistics of each layer (starfocus/experimental.h): STARFOCUS_LAYERS elements,
    *  of which frame modes use only the first. Default null. */
   struct starfocus_layer_report* layers;
+  /** Pixels of the disparity map that were checked or converted; a pixel counts each time. */
+  uint64_t converted_pixels;
+  uint64_t measured_pixels; /**< Pixels whose blur was measured to plan blocks. */
 } starfocus_report;
 
 /** Sets all statistics to 0.
