@@ -113,8 +113,7 @@ Error CheckPixel(int width, int height, const LensPlan& plan) {
 void AddTuningOptions(Command* command, LensOptions* options) {
   AddOptions(
       {
-          {"--superblock", "32|64|128|256",
-           "Side of a superblock in pixels; default: 128",
+          {"--superblock", "32|64|128|256", "Side of a superblock in pixels; default: 128",
            Choice<int>({{"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}}, &options->superblock)},
           {"--renderer", "slices|line-scan",
            "slices renders a few views from slices of the scene; line-scan renders the "
