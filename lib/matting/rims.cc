@@ -51,7 +51,7 @@ class RimSummer {
       const bool inside = left_ > 0 && (first + kAtOnce + 2) * kRimPatch <= input_.width;
       const bool has_step = !inside || HasStep(last - first);
       for (int32_t column = first; column < last; ++column, ++sums) {
-        std::memset(sums, 0, sizeof(*sums));
+        sums->lines = 0;  // The other sums are not read.
         if (has_step) SumPatch(column, sums);
       }
     }
@@ -66,6 +66,7 @@ class RimSummer {
     left_ = column * kRimPatch;
     if (top_ < kReach || top_ + kRimPatch + kReach > input_.height) return;
     if (left_ < kReach || left_ + kRimPatch + kReach > input_.width || !HasStep(1)) return;
+    std::memset(sums, 0, sizeof(*sums));
     loaded_ = false;
     for (int32_t y = top_; y < top_ + kRimPatch; ++y) {
       if (!HasEdge(y)) continue;
