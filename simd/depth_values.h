@@ -93,7 +93,8 @@ STARFOCUS_REFERENCE void Depth16ToDepth(const uint16_t* values, size_t count, fl
 inline float DisparityOf(float z, const DepthRule& rule) {
   const float scaled = rule.reciprocal ? rule.scale / z : rule.scale * z;
   const float disparity = scaled + rule.offset;
-  const bool known = z != rule.invalid && disparity - disparity == 0.0f;
+  // Without a branch, so that compilers vectorize loops over this function.
+  const bool known = bool(z != rule.invalid) & bool(disparity - disparity == 0.0f);
   return known ? disparity : std::numeric_limits<float>::quiet_NaN();
 }
 

@@ -86,17 +86,6 @@ constexpr int kLeastAgreeing = 6;
 
 using Images = std::vector<Image>;
 
-// Returns the views from which maps are repaired.
-Images StarOf(const LightField& light_field) {
-  return {light_field.views.begin(), light_field.views.begin() + StarWithin(light_field.positions)};
-}
-
-// Returns the views from which maps are estimated.
-Images EstimateViewsOf(const LightField& light_field) {
-  return {light_field.views.begin(),
-          light_field.views.begin() + EstimateViews(light_field.positions)};
-}
-
 // Threads and progress line for computing a map.
 struct Maker {
   Maker(int threads, const char* what) : pool(threads), progress(what, 1) {}
@@ -116,7 +105,8 @@ struct FreeAligned {
 // Inputs and requested outputs of the computation of a map.
 struct MapTask {
   const Images& views;
-  const Positions& positions;  // positions of the light field; the first ones are those of `views`
+  int used;                    // Number of views, from the first on, from which the map is made.
+  const Positions& positions;  // Positions of `views`.
   const FloatMap* given;       // map to repair; null: estimate the map
   DisparityRange range;
   bool confidence, coverage;
@@ -131,8 +121,8 @@ starfocus::Config ConfigOf(const MapTask& task, Maker* maker) {
   starfocus::Config config;
   config.width = task.views[0].width;
   config.height = task.views[0].height;
-  config.views = static_cast<int32_t>(task.views.size());
-  std::copy_n(task.positions.begin(), task.views.size(), config.positions);
+  config.views = task.used;
+  std::copy_n(task.positions.begin(), task.used, config.positions);
   config.disparity_min = task.range.min;
   config.disparity_max = task.range.max;
   config.max_workers = maker->pool.workers();
@@ -156,7 +146,7 @@ Result<MadeMap> MakeMap(const std::string& where, const MapTask& task, Maker* ma
     const std::unique_ptr<void, FreeAligned> workspace(
         ::operator new (bytes, std::align_val_t{STARFOCUS_ALIGNMENT}));
     starfocus_light_field light_field = starfocus::NewLightField();
-    for (size_t i = 0; i < task.views.size(); ++i) {
+    for (size_t i = 0; i < static_cast<size_t>(task.used); ++i) {
       light_field.views[i] = starfocus_image_rgb(task.views[i].row(0), task.views[i].stride());
     }
     const auto width = size_t(centre.width), pixels = width * size_t(centre.height);
@@ -263,16 +253,17 @@ Error CheckEstimateViews(const std::string& where, const LightField& light_field
 
 Result<DisparityRange> FindRange(const std::string& where, const LightField& light_field,
                                  int threads) {
-  const Images views = EstimateViewsOf(light_field);
+  const Images& views = light_field.views;
+  const int used = EstimateViews(light_field.positions);
   const int factor = (views[0].width + kSmallWidth - 1) / kSmallWidth;
-  std::vector<Image> small;
-  for (const Image& view : views) small.push_back(Shrink(view, factor));
+  Images small;
+  for (int i = 0; i < used; ++i) small.push_back(Shrink(views[size_t(i)], factor));
   const float most =
       std::min(static_cast<float>(small[0].width) / 8,
                static_cast<float>(STARFOCUS_MAX_DISPARITY) / static_cast<float>(factor));
   Maker maker(threads, "searching the disparity range");
-  const Result<MadeMap> made =
-      MakeMap(where, {small, light_field.positions, nullptr, {-most, most}, true, false}, &maker);
+  const Result<MadeMap> made = MakeMap(
+      where, {small, used, light_field.positions, nullptr, {-most, most}, true, false}, &maker);
   if (!made) return made.error();
   const std::vector<float> sure = SureDisparities(*made, StarWithin(light_field.positions) > 1);
   const auto strays = static_cast<size_t>(kStrays * static_cast<double>(sure.size()));
@@ -288,10 +279,11 @@ Result<DisparityRange> FindRange(const std::string& where, const LightField& lig
 
 Result<DisparityEstimate> EstimateDisparity(const std::string& where, const LightField& light_field,
                                             const DisparityRange& range, int threads) {
-  const Images views = EstimateViewsOf(light_field);
+  const Images& views = light_field.views;
+  const int used = EstimateViews(light_field.positions);
   Maker maker(threads, "estimating disparities");
   Result<MadeMap> made =
-      MakeMap(where, {views, light_field.positions, nullptr, range, true, false}, &maker);
+      MakeMap(where, {views, used, light_field.positions, nullptr, range, true, false}, &maker);
   if (!made) return made.error();
   return DisparityEstimate{std::move(made->map), range, DrawLevels(made->confidence, views[0]), {}};
 }
@@ -310,18 +302,20 @@ Result<DisparityEstimate> RepairDisparity(const std::string& where, const LightF
   }
   const DisparityRange range = {float(std::max(stats.min - kRepairReach, -kMost)),
                                 float(std::min(stats.max + kRepairReach, kMost))};
-  const Images views = StarOf(light_field);
+  const Images& views = light_field.views;
+  const Positions& positions = light_field.positions;
   Maker maker(options.threads, "repairing disparities");
-  Result<MadeMap> made = MakeMap(
-      where, {views, light_field.positions, &given, range, options.confidence, options.coverage},
-      &maker);
+  Result<MadeMap> made = MakeMap(where,
+                                 {views, StarWithin(positions), positions, &given, range,
+                                  options.confidence, options.coverage},
+                                 &maker);
   if (!made) return made.error();
   DisparityEstimate estimate;
   if (options.confidence) estimate.confidence = DrawLevels(made->confidence, views[0]);
   estimate.map = std::move(made->map);
   estimate.coverage = std::move(made->coverage);
-  const auto ends = std::minmax_element(estimate.map.values.begin(), estimate.map.values.end());
-  estimate.range = {*ends.first, *ends.second};
+  const starfocus_disparity_stats ends = MeasureDisparity(estimate.map);
+  estimate.range = {static_cast<float>(ends.min), static_cast<float>(ends.max)};
   return estimate;
 }
 

@@ -321,11 +321,14 @@ void ClearTile(const Input& input, int32_t column, int32_t row) {
   const int32_t left = column * kCoverageTile, count = Min(kCoverageTile, map.width - left);
   for (int32_t y = row * kCoverageTile; y < Min((row + 1) * kCoverageTile, map.height); ++y) {
     const size_t to = map.At(left, y);
-    for (int32_t x = count; x < kCoverageTile; ++x)
-      map.near[to + static_cast<size_t>(x)] = kNowhere;
-    std::memcpy(map.near + to, input.disparity.Row(y) + left,
-                static_cast<size_t>(count) * sizeof(*map.near));
+    int16_t* const near = map.near + to;
+    const int16_t* const from = input.disparity.Row(y) + left;
     std::memset(map.first + to, kWhole, kCoverageTile);
+    if (count == kCoverageTile) {  // a known size, which takes one or two instructions to copy
+      std::memcpy(near, from, kCoverageTile * sizeof(*near));
+      continue;
+    }
+    for (int32_t x = 0; x < kCoverageTile; ++x) near[x] = x < count ? from[x] : kNowhere;
   }
 }
 

@@ -41,43 +41,79 @@ class RimSummer {
     }
   }
 
-  // Sums the lines of a patch. Patches at the edge of the picture, where lines may leave the
-  // picture, have no lines.
-  void Sum(int32_t column, RimSums* sums) {
-    std::memset(sums, 0, sizeof(*sums));
-    left_ = column * kRimPatch;
-    if (top_ < kReach || top_ + kRimPatch + kReach > input_.height) return;
-    if (left_ < kReach || left_ + kRimPatch + kReach > input_.width || !HasStep()) return;
-    loaded_ = false;
-    ForPixels({left_, top_, kRimPatch, kRimPatch}, [&](int32_t x, int32_t y) {
-      const int32_t edge = Disparity(x, y) + kRimStep;
-      for (int side = 0; side < kSideCount; ++side) {
-        if (Disparity(x + kSides[side][0], y + kSides[side][1]) > edge) AddLine(x, y, side, sums);
+  // Sums the lines of the patches of some columns. Most patches are far from outlines, so several
+  // patches are tested at once.
+  void Sum(const Range& columns, RimSums* sums) {
+    constexpr int32_t kAtOnce = 8;
+    for (int32_t first = columns.first, last; first < columns.last; first = last) {
+      last = Min(first + kAtOnce, columns.last);
+      left_ = first * kRimPatch;
+      const bool inside = left_ > 0 && (first + kAtOnce + 2) * kRimPatch <= input_.width;
+      const bool has_step = !inside || HasStep(last - first);
+      for (int32_t column = first; column < last; ++column, ++sums) {
+        sums->lines = 0;  // The other sums are not read.
+        if (has_step) SumPatch(column, sums);
       }
-    });
+    }
   }
 
  private:
   static constexpr int32_t kReach = kRimEnd - 1, kSide = kRimPatch + 2 * kReach;
+
+  // Sums the lines of a patch. Patches at the edge of the picture, where lines may leave the
+  // picture, have no lines.
+  void SumPatch(int32_t column, RimSums* sums) {
+    left_ = column * kRimPatch;
+    if (top_ < kReach || top_ + kRimPatch + kReach > input_.height) return;
+    if (left_ < kReach || left_ + kRimPatch + kReach > input_.width || !HasStep(1)) return;
+    std::memset(sums, 0, sizeof(*sums));
+    loaded_ = false;
+    for (int32_t y = top_; y < top_ + kRimPatch; ++y) {
+      if (!HasEdge(y)) continue;
+      for (int32_t x = left_; x < left_ + kRimPatch; ++x) {
+        const int32_t edge = Disparity(x, y) + kRimStep;
+        for (int side = 0; side < kSideCount; ++side) {
+          if (Disparity(x + kSides[side][0], y + kSides[side][1]) > edge) AddLine(x, y, side, sums);
+        }
+      }
+    }
+  }
+
+  // Returns true if a pixel of a row of the patch is beside a nearer surface. Compilers vectorize
+  // the loop.
+  bool HasEdge(int32_t y) const {
+    const int16_t* const row = rows_[y - top_ + kReach] + left_;
+    const int16_t *const above = rows_[y - top_ + kReach - 1] + left_,
+                         *const below = rows_[y - top_ + kReach + 1] + left_;
+    int32_t edges = 0;
+    for (int32_t x = 0; x < kRimPatch; ++x) {
+      const int16_t aside = Max(row[x - 1], row[x + 1]), beside = Max(above[x], below[x]);
+      edges |= static_cast<int32_t>(Max(aside, beside) > row[x] + kRimStep);
+    }
+    return edges != 0;
+  }
 
   int32_t Disparity(int32_t x, int32_t y) const { return rows_[y - top_ + kReach][x]; }
   int16_t* Light(int32_t x, int32_t y) {
     return light_[y - top_ + kReach] + 3 * (x - left_ + kReach);
   }
 
-  // Returns false if the disparities of the patch and of the pixels around it are so similar that
-  // they contain no outline. The rows of a ring are not contiguous at its end.
-  bool HasStep() const {
+  // Returns false if the disparities of up to 8 patches and of the pixels around them are so
+  // similar that they contain no outline. The rows of a ring are not contiguous at its end.
+  bool HasStep(int32_t patches) const {
     int32_t low = INT16_MAX, high = INT16_MIN;
+    const auto count = static_cast<size_t>(patches * kRimPatch + 2);
     const auto stride = static_cast<ptrdiff_t>(input_.disparity.stride);
     constexpr int32_t kEnd = kReach + kRimPatch + 1;
     for (int32_t first = kReach - 1, next; first < kEnd; first = next) {
       for (next = first + 1; next < kEnd && rows_[next] - rows_[next - 1] == stride;) ++next;
-      simd::DisparityRange range;
+      simd::DisparityRange ranges[(8 * kRimPatch + 2) / simd::kSliceLanes + 1];
       input_.kernels->FindRanges(rows_[first] + left_ - 1, input_.disparity.stride,
-                                 static_cast<size_t>(next - first), kRimPatch + 2, &range);
-      low = Min(low, range.low);
-      high = Max(high, range.high);
+                                 static_cast<size_t>(next - first), count, ranges);
+      for (size_t k = 0; k * simd::kSliceLanes < count; ++k) {
+        low = Min(low, ranges[k].low);
+        high = Max(high, ranges[k].high);
+      }
     }
     return high - low > kRimStep;
   }
@@ -201,10 +237,18 @@ int32_t WeightOf(const RimTotal& total, int k) {
       ((clear * aligned * large >> (2 * kFadeBits)) * enough >> kFadeBits) * small >> kFadeBits);
 }
 
-// Finds the rim in a patch. A rim has no gap: no pixel counts more than a pixel between itself and
-// the outline. Only the first pixel may count less, because it may be an ordinary mixture.
+// Returns true if a patch of a column has lines.
+bool HasLines(const RimMap& map, int32_t column, const Range& rows) {
+  for (int32_t row = rows.first; row < rows.last; ++row) {
+    if (map.sums[map.At(column, row)].lines > 0) return true;
+  }
+  return false;
+}
+
+// Finds the rim in a patch, whose rim must be empty. A rim has no gap: no pixel counts more than a
+// pixel between itself and the outline. Only the first pixel may count less, because it may be an
+// ordinary mixture.
 void FindRim(const RimMap& map, int32_t column, int32_t row, PatchRim* rim) {
-  *rim = {};
   RimTotal total = {};
   ForPixels(Clipped(Around(column, row, kRimAround), map.columns, map.Rows()),
             [&](int32_t x, int32_t y) { AddSums(map.sums[map.At(x, y)], &total); });
@@ -259,15 +303,19 @@ starfocus_status FindRims(const FullConfig& config, const Input& input, const Ra
   const starfocus_status status =
       for_each({Max(0, top - kRimAround), Min(map->Rows(), end + kRimAround)}, &map->summed,
                [&](const Range& columns, int32_t row) {
-                 RimSummer summer(input, row);
-                 for (int32_t column = columns.first; column < columns.last; ++column) {
-                   summer.Sum(column, &map->sums[map->At(column, row)]);
-                 }
+                 RimSummer(input, row).Sum(columns, &map->sums[map->At(columns.first, row)]);
                });
   if (status != STARFOCUS_OK) return status;
   return for_each({top, end}, &map->found, [&](const Range& columns, int32_t row) {
+    const Range around = {Max(0, row - kRimAround), Min(map->Rows(), row + kRimAround + 1)};
+    int32_t next = Max(0, columns.first - kRimAround), last_line = -1;
     for (int32_t column = columns.first; column < columns.last; ++column) {
-      FindRim(*map, column, row, &map->rims[map->At(column, row)]);
+      for (; next < map->columns && next <= column + kRimAround; ++next) {
+        if (HasLines(*map, next, around)) last_line = next;
+      }
+      PatchRim* const rim = &map->rims[map->At(column, row)];
+      *rim = {};
+      if (last_line >= 0 && last_line >= column - kRimAround) FindRim(*map, column, row, rim);
     }
   });
 }

@@ -2,7 +2,6 @@
 #include "platform/helper/channel.h"
 
 #include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
@@ -73,15 +72,6 @@ size_t Channel::Count(size_t count, uint64_t most) {
   Value(&number);
   Require(number <= most);
   return is_sound_ ? static_cast<size_t>(number) : 0;
-}
-
-void Channel::PreferLargePages(void* data, size_t size) {
-#ifdef MADV_HUGEPAGE
-  constexpr uintptr_t kPage = 4096;
-  const auto begin = (reinterpret_cast<uintptr_t>(data) + kPage - 1) / kPage * kPage;
-  const auto end = (reinterpret_cast<uintptr_t>(data) + size) / kPage * kPage;
-  if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-#endif
 }
 
 void Channel::Move(void* data, size_t size) {

@@ -58,7 +58,6 @@ class Channel {
         if (begin == 0) {
           block->clear();
           block->reserve(count);
-          PreferLargePages(block->data(), count * kElement);
         }
         block->resize(end);
       }
@@ -97,8 +96,6 @@ class Channel {
   // Limit of a block of metadata. Pictures and maps have as many elements as their sizes state.
   static constexpr uint64_t kMostElements = uint64_t{1} << 30;
 
-  // Asks the system for large pages, which take a fraction of the time of small ones to map.
-  static void PreferLargePages(void* data, size_t size);
   void Move(void* data, size_t size);
   // Sends or receives a number of elements, and requires that it is at most `most`.
   size_t Count(size_t count, uint64_t most);

@@ -107,7 +107,8 @@ void TakePair(const std::string& path, const std::string& right, DepthPhoto* pho
               Capture* capture) {
   capture->files = {{{0, 0}, path}, {{1, 0}, right}};
   capture->light_field.positions = {{0, 0}, {1, 0}};
-  capture->light_field.views = {std::move(photo->picture), std::move(photo->right)};
+  capture->light_field.views.push_back(std::move(photo->picture));
+  capture->light_field.views.push_back(std::move(photo->right));
 }
 
 // Converts a fraction of the width or height, in [0, 1], to a pixel coordinate.

@@ -278,7 +278,7 @@ Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo,
     const Error error = ConvertMap(where, options.clip, photo).MoveTo(&light_field.disparity);
     if (error) return error;
   }
-  light_field.views = {std::move(photo->picture)};
+  light_field.views.push_back(std::move(photo->picture));
   light_field.positions = {{0, 0}};
   light_field.is_linear = photo->is_linear;
   if (has_map) return light_field;
