@@ -276,6 +276,7 @@ inline test::Config ConfigFor(const Scene& scene, double max_blur = 32) {
   config.disparity_min = scene.disparity_min;
   config.disparity_max = scene.disparity_max;
   config.max_blur = max_blur;
+  config.superblock = 64;  // Small scenes have several superblocks.
   return config;
 }
 

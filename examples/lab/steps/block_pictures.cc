@@ -72,8 +72,16 @@ class BlockArtist {
         memory_(
             static_cast<CompositorScratch*>(engine_.scratch[0].renderers[kSliceRenderer.index])),
         grid_(ViewGridOf(engine_, planned_.block, engine_.scratch[0].aperture_weights)),
-        job_{&input_, 0, &grid_, rect_, planned_.block.border, nullptr, nullptr, engine_.lens.r_max,
-             false},
+        job_{&input_,
+             0,
+             &grid_,
+             rect_,
+             planned_.block.border,
+             nullptr,
+             nullptr,
+             engine_.lens.r_max,
+             false,
+             &counts_},
         pictures_(*pictures) {}
 
   void Draw() {
@@ -236,8 +244,9 @@ class BlockArtist {
   const Rect& rect_;
   const Input& input_;
   CompositorScratch* const memory_;
-  const ViewGrid grid_;  // Grid of the engine.
-  const RenderJob job_;  // The engine's job for this block.
+  const ViewGrid grid_;                 // Grid of the engine.
+  starfocus_layer_report counts_ = {};  // not shown
+  const RenderJob job_;                 // The engine's job for this block.
   StepPictures& pictures_;
 };
 
