@@ -15,7 +15,7 @@
 
 namespace starfocus::simd {
 
-// Number of rows of a strip that Composite may read after the last row that it composites.
+// Largest number of rows that the interpolation reads after the first row (SliceOffset::taps).
 inline constexpr size_t kRowsAhead = 3;
 
 // Number of samples of a row of a strip: kSliceLanes samples of R, of G, of B and of the coverage.
@@ -46,7 +46,8 @@ struct StripSlice {
 //   p[1] + first (p[1] - p[0]) + third (p[1] - p[2]) + fourth (p[2] - p[3]).
 // The factor `first` is `inside` if p[0] and p[1] have equal coverage, and `edge` if not. All
 // factors are in [-1, 0] with 15 fractional bits, because 16 bits can represent -1 but not 1. If
-// `third` is not 0, `inside` and `edge` are equal. If `third` is 0, `fourth` is also 0.
+// `third` is not 0, `inside` and `edge` are equal, and the sum of `edge` and `third` is at least
+// -3/4, so that no colour exceeds the coverage. If `third` is 0, `fourth` is also 0.
 struct SliceOffset {
   int16_t whole;
   int16_t taps;  // number of interpolated samples: 2, 3 or 4, depending on the factors
@@ -158,7 +159,7 @@ STARFOCUS_REFERENCE void ShiftSlice(const SliceRows& in, const SliceOffset& offs
   }
 }
 
-// Composites the views of `rows` <= kMostRows rows of a strip and adds the results to
+// Composites the views of `rows` rows of a strip, in [1, kMostRows], and adds the results to
 // sums[(4 row + c) kSliceLanes + n], where c is the plane. A slice contributes its premultiplied
 // colours and reduces the remaining light by its coverage.
 //

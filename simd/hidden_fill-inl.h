@@ -96,7 +96,7 @@ HWY_INLINE hn::Mask<LanesTag> Differ(LanesVec a, LanesVec b, int16_t unit) {
 
 // Calls act(n) for the vectors from pixel n on of all groups of kSliceLanes in `strips`.
 template <class Act>
-HWY_INLINE void ForVectors(uint64_t strips, const Act& act) {
+HWY_INLINE void ForStrips(uint64_t strips, const Act& act) {
   for (size_t strip = 0; strips != 0; strips >>= 1, strip += kSliceLanes) {
     if ((strips & 1) == 0) continue;
     for (size_t n = strip; n < strip + kSliceLanes; n += hn::Lanes(LanesTag())) act(n);
@@ -106,7 +106,7 @@ HWY_INLINE void ForVectors(uint64_t strips, const Act& act) {
 inline void LimitFar(const FarRows& rows, int16_t* HWY_RESTRICT out) {
   const LanesTag d16;
   const auto zero = hn::Zero(d16);
-  ForVectors(rows.strips, [&](size_t n) HWY_ATTR {
+  ForStrips(rows.strips, [&](size_t n) HWY_ATTR {
     const auto from = hn::LoadU(d16, reinterpret_cast<const int16_t*>(rows.source) + n);
     if (hn::AllTrue(d16, hn::Eq(from, zero))) return;
     const auto across = hn::Ne(hn::And(from, hn::Set(d16, kSourceAlongRow)), zero);
@@ -145,7 +145,7 @@ inline void SmoothFar(const FarRows& rows, int32_t step, int16_t* HWY_RESTRICT o
   const auto mean = [&](LanesVec a, LanesVec b) HWY_ATTR {
     return hn::BitCast(d16, hn::AverageRound(hn::BitCast(du16, a), hn::BitCast(du16, b)));
   };
-  ForVectors(rows.strips, [&](size_t n) HWY_ATTR {
+  ForStrips(rows.strips, [&](size_t n) HWY_ATTR {
     const auto distance = hn::ShiftRight<kSourceDistance>(hn::LoadU(du16, rows.source + n));
     const auto takes = hn::Gt(hn::BitCast(d16, distance), short_of);
     if (hn::AllFalse(d16, takes)) return;

@@ -10,6 +10,7 @@
 #include "simd/cells-inl.h"
 #include "simd/composite-inl.h"
 #include "simd/disparities-inl.h"
+#include "simd/finish_composite-inl.h"
 #include "simd/gather-inl.h"
 #include "simd/hidden_fill-inl.h"
 #include "simd/layered_depth-inl.h"

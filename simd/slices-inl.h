@@ -73,10 +73,12 @@ HWY_INLINE LanesVec SelectAny(const SurfaceRow& row, LanesVec low, LanesVec high
 // cover->some; if it covers all of them completely, also in cover->all. Writes nothing if no
 // disparity of the group lies in the slice.
 template <bool kHiding>
-HWY_INLINE void SelectGroup(const SurfaceRow& row, LanesVec low, LanesVec high, LanesVec overlap,
-                            size_t strip, size_t count, size_t plane, int16_t* HWY_RESTRICT out,
-                            uint64_t bit, SliceCover* cover) {
+HWY_INLINE void SelectGroup(const SurfaceRow& row, const SliceRange& slice, size_t strip,
+                            size_t count, size_t plane, int16_t* HWY_RESTRICT out, uint64_t bit,
+                            SliceCover* cover) {
   const LanesTag d16;
+  const auto low = hn::Set(d16, slice.low), high = hn::Set(d16, slice.high);
+  const auto overlap = hn::Set(d16, slice.overlap);
   const size_t lanes = hn::Lanes(d16), end = strip + kSliceLanes;
   const auto one = hn::Set(d16, kSliceOne);
   auto found = hn::Zero(d16), mixed = hn::Zero(d16);
@@ -110,12 +112,10 @@ HWY_INLINE void SelectGroup(const SurfaceRow& row, LanesVec low, LanesVec high, 
   if (hn::AllTrue(d16, hn::Eq(all, one))) cover->all |= bit;
 }
 
-inline void SelectSlice(const SurfaceRows& from, int16_t least, int16_t most, int16_t overlapping,
-                        uint64_t groups, size_t width, size_t plane, int16_t* HWY_RESTRICT out,
+inline void SelectSlice(const SurfaceRows& from, const SliceRange& slice, uint64_t groups,
+                        size_t width, size_t plane, int16_t* HWY_RESTRICT out,
                         SliceCover* HWY_RESTRICT cover) {
   const LanesTag d16;
-  const auto low = hn::Set(d16, least), high = hn::Set(d16, most);
-  const auto overlap = hn::Set(d16, overlapping);
   const uint64_t written = (uint64_t{2} << (width / kSliceLanes - 1)) - 1;
   for (size_t y = 0; y < from.rows; ++y, out += 4 * plane) {
     const SurfaceRow row = from.Row(y);
@@ -124,9 +124,9 @@ inline void SelectSlice(const SurfaceRows& from, int16_t least, int16_t most, in
       const size_t strip = kSliceLanes * hwy::Num0BitsBelowLS1Bit_Nonzero64(rest);
       const uint64_t bit = rest & (~rest + 1);
       if ((row.hiding & bit) == 0) {  // Most groups have one surface per pixel.
-        SelectGroup<false>(row, low, high, overlap, strip, from.count, plane, out, bit, &covers);
+        SelectGroup<false>(row, slice, strip, from.count, plane, out, bit, &covers);
       } else {
-        SelectGroup<true>(row, low, high, overlap, strip, from.count, plane, out, bit, &covers);
+        SelectGroup<true>(row, slice, strip, from.count, plane, out, bit, &covers);
       }
     }
     cover[y] = covers;

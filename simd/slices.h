@@ -72,6 +72,11 @@ struct SliceTaps {
 };
 inline constexpr int32_t kMaxSpread = 3;
 
+// The disparities [low, high] of a slice, and the overlap up to `overlap` (SelectSlice).
+struct SliceRange {
+  int16_t low, high, overlap;
+};
+
 namespace reference {
 
 // Selects the surfaces of a slice, for each pixel of the rows. The slice contains the disparities
@@ -92,9 +97,9 @@ namespace reference {
 // cover, and after the last group. `width` is a multiple of kSliceLanes. The other samples of the
 // last group, and the samples of all other rows, are unspecified. The rows of `out` are 4 `plane`
 // samples apart.
-STARFOCUS_REFERENCE void SelectSlice(const SurfaceRows& from, int16_t low, int16_t high,
-                                     int16_t overlap, uint64_t groups, size_t width, size_t plane,
-                                     int16_t* out, SliceCover* cover) {
+STARFOCUS_REFERENCE void SelectSlice(const SurfaceRows& from, const SliceRange& slice,
+                                     uint64_t groups, size_t width, size_t plane, int16_t* out,
+                                     SliceCover* cover) {
   for (size_t y = 0; y < from.rows; ++y, out += 4 * plane) {
     const SurfaceRow row = from.Row(y);
     SliceCover& covers = cover[y] = {0, 0};
@@ -105,8 +110,8 @@ STARFOCUS_REFERENCE void SelectSlice(const SurfaceRows& from, int16_t low, int16
       const bool hiding = (row.hiding & bit) != 0;
       const auto inside = [&](int surface) {
         const bool end = hiding && surface == 0 && row.share[n] != kSliceWhole;
-        return row.disparity[surface][n] >= low &&
-               row.disparity[surface][n] <= (end ? high : overlap);
+        return row.disparity[surface][n] >= slice.low &&
+               row.disparity[surface][n] <= (end ? slice.high : slice.overlap);
       };
       int next = hiding ? 1 : kSurfaces;
       while (next < kSurfaces && !inside(next)) ++next;

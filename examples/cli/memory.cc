@@ -3,6 +3,7 @@
 // allocates 420 MB in blocks of 12 to 100 MB, one after another. By default, the C library maps and
 // unmaps each block in pages of 4 KiB, which takes as long as all computations together.
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <climits>
 #include <cstddef>
@@ -23,9 +24,9 @@ constexpr size_t kLarge = size_t{1} << 20;
 // never use large pages ignore the request.
 void PreferLargePages(void* memory, size_t size) {
 #ifdef MADV_HUGEPAGE
-  constexpr uintptr_t kPage = 4096;
-  const auto begin = (reinterpret_cast<uintptr_t>(memory) + kPage - 1) / kPage * kPage;
-  const auto end = (reinterpret_cast<uintptr_t>(memory) + size) / kPage * kPage;
+  static const auto page = static_cast<uintptr_t>(sysconf(_SC_PAGESIZE));
+  const auto begin = (reinterpret_cast<uintptr_t>(memory) + page - 1) / page * page;
+  const auto end = (reinterpret_cast<uintptr_t>(memory) + size) / page * page;
   madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 #endif
 }

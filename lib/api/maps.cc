@@ -107,7 +107,7 @@ struct Extremes {
     const int32_t bits = known != 0 ? Reordered(ordered) : 0;
     float value;
     std::memcpy(&value, &bits, sizeof(value));
-    return value;
+    return value + 0.0F;  // -0 becomes 0
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/slices/compositor.h"
 
+#include <bitset>
 #include <cstring>
 
 #include "lib/io/block_pixels.h"
@@ -171,9 +172,7 @@ void CountSurfaces(const LayeredDepth& surfaces, starfocus_layer_report* counts)
   counts->surface_pixels += pixels;
   if (surfaces.repeats) counts->filled_pixels += pixels;
   for (int32_t y = 0; y < surfaces.height; ++y) {
-    for (uint64_t strips = surfaces.hiding[y]; strips != 0; strips &= strips - 1) {
-      counts->hidden_pixels += simd::kSliceLanes;
-    }
+    counts->hidden_pixels += simd::kSliceLanes * std::bitset<64>(surfaces.hiding[y]).count();
   }
 }
 

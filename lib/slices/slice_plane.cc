@@ -179,7 +179,7 @@ void SelectRows(const simd::Kernels& kernels, const LayeredDepth& surfaces, cons
   from.count = static_cast<size_t>(columns.count());
   int16_t* row = placed.samples + static_cast<size_t>(first) * row_samples;
   simd::SliceCover* const cover = placed.cover + first;
-  kernels.SelectSlice(from, slice.low, slice.high, slice.overlap, groups,
+  kernels.SelectSlice(from, {slice.low, slice.high, slice.overlap}, groups,
                       is_padded ? simd::SliceSamples(from.count) : placed.plane, placed.plane,
                       row + columns.first, cover);
   for (int32_t k = 0; is_padded && k < rect.height; ++k, row += row_samples) {

@@ -165,15 +165,13 @@ constexpr size_t SliceBytes(size_t width, size_t height, size_t reach) {
          CoverBytes(height + 2 * reach);
 }
 
-// Returns the number of rows of a slice in a strip, including rows that are read after the last
-// one.
-constexpr size_t StripRows(size_t height, size_t reach) {
-  return height + 2 * reach + simd::kRowsAhead;
-}
+// Returns the number of rows in a strip of a slice of `rows` rows, including rows that are read
+// after the last one.
+constexpr size_t StripRows(size_t rows) { return rows + simd::kRowsAhead; }
 
 // Returns the size in bytes of a slice in a strip, including its coverage.
 constexpr size_t StripBytes(size_t height, size_t reach) {
-  const size_t rows = StripRows(height, reach);
+  const size_t rows = StripRows(height + 2 * reach);
   return rows * simd::kStripRow * sizeof(int16_t) + simd::RowCovers(rows) * sizeof(simd::RowCover);
 }
 

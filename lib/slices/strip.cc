@@ -147,7 +147,7 @@ class Strip {
   void PlaceSlices(uint8_t* memory) {
     for (int32_t n = 0; n < seen_; ++n) {
       const int32_t k = seen_slices_[n];
-      const size_t rows = static_cast<size_t>(planes_[k].rows) + simd::kRowsAhead;
+      const size_t rows = StripRows(static_cast<size_t>(planes_[k].rows));
       auto* const cover = reinterpret_cast<simd::RowCover*>(memory);
       const size_t covers = simd::RowCovers(rows);
       auto* const samples = reinterpret_cast<int16_t*>(cover + covers);
@@ -236,8 +236,8 @@ class Strip {
     return end;
   }
 
-  // Adds the views [rows.first, rows.last) of a column with the weights `weights_`, to the rows of
-  // at most kMostRows / kLeastRows cell pairs at a time.
+  // Adds the views [rows.first, rows.last) of a column with the weights `weights_`, to at most
+  // kMostRows rows at a time. The sums of gathered cells between cell pairs are meaningless.
   void AddViews(const Range& rows, int extra_bits) {
     for (const CellPair *pair = first_, *next; pair < end_; pair = next) {
       next = pair + 1;

@@ -215,6 +215,7 @@ TEST_CASE("configuration: superblock = 0 selects 128 pixels") {
     CAPTURE(width);
     const test::Scene scene = test::RandomScene(width, 3, 1, -2, 2, 9);
     test::Config config = test::ConfigFor(scene, 4);
+    config.superblock = 0;
     test::Report report;
     test::OutputOf(config, test::Params(1, 1, STARFOCUS_MODE_BLOCK), scene, &report);
     CHECK(report.superblock == 128);

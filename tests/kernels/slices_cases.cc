@@ -81,7 +81,8 @@ void SelectSlice(Draw* draw, KernelCall* call) {
   const uint64_t groups = GroupsOf(from, low, overlap, draw);
   auto* out = call->OutputRows<int16_t>("out", 4 * rows, plane, width);
   auto* cover = call->Results<SliceCover>("cover", rows);
-  call->Calls(&Kernels::SelectSlice, from, low, high, overlap, groups, width, plane, out, cover);
+  call->Calls(&Kernels::SelectSlice, from, SliceRange{low, high, overlap}, groups, width, plane,
+              out, cover);
   call->is_right = [=](uint64_t, Met* met) {
     bool right = true;
     for (size_t y = 0; y < rows; ++y) {
@@ -134,12 +135,14 @@ namespace {
 // or four samples. With two samples, the weights at edges and inside surfaces may be equal or
 // different.
 SliceOffset Offset(int whole, Draw* draw) {
-  const int taps = draw->timed() ? 2 : draw->Int(1, 5), first = draw->Int(0, 32767);
+  const int taps = draw->timed() ? 2 : draw->Int(1, 5);
+  const int first = draw->Int(0, taps > 3 ? 16384 : 32767);
   if (taps == 1) return SliceOffset::Of(whole, INT16_MIN, INT16_MIN, 0, 0);
   const auto edge = int16_t(-first);
   if (taps == 2) return SliceOffset::Of(whole, edge, edge, 0, 0);
   if (taps == 3) return SliceOffset::Of(whole, int16_t(draw->Int(-32768, 0)), edge, 0, 0);
-  const int third = draw->Int(1, 32768 - first);
+  // As in the engine, the first and the last samples have at most three quarters of the weight.
+  const int third = draw->Int(1, std::max(1, 24576 - first));
   const int fourth = taps == 4 ? 0 : draw->Int(0, third);
   return SliceOffset::Of(whole, edge, edge, int16_t(-third), int16_t(-fourth));
 }

@@ -7,6 +7,7 @@
 // picture of the focus, the last columns are the PSNR of both pictures against it. The last
 // argument is the transfer function of the ray-traced picture.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>

@@ -316,9 +316,9 @@ typedef struct starfocus_config {
   double max_blur;
   /** Side of the superblocks, from which blocks are split, in pixels: 32, 64, 128, 256, or 0. The
    *  default 0 selects 128. Superblocks of 128 pixels are up to an eighth faster than superblocks
-   * of 64 pixels. The memory of a worker grows with the superblock, and is 1.15 MiB with
-   * superblocks of 64 pixels and 2.1 MiB with superblocks of 128 pixels.
-   * starfocus_report.superblock reports the selected side. */
+   *  of 64 pixels. The memory of a worker grows with the superblock, and is 1.15 MiB with
+   *  superblocks of 64 pixels and 2.1 MiB with superblocks of 128 pixels.
+   *  starfocus_report.superblock reports the selected side. */
   int32_t superblock;
   int32_t max_workers; /**< Number of workers, [1, STARFOCUS_MAX_WORKERS]; default 1. */
   uint32_t features;   /**< Bits STARFOCUS_FEATURE_*; default COVERAGE. */
