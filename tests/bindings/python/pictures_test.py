@@ -261,7 +261,7 @@ class Streams(unittest.TestCase):
     """Streams of rows, and frames of a video."""
 
     def test_streams_have_the_bytes_of_whole_pictures(self):
-        engine, taken = refocuser(streaming=1, shapes=1, max_blur=8), []
+        engine, taken = refocuser(streaming=1, shapes=1, max_blur=8, superblock=64), []
         for coverage in (None, COVERAGE):
             lens = {"focus": 1, "aperture": 0.75, "shape": Shape.DISC}
             whole = engine.refocus(VIEWS, DISPARITY, coverage=coverage, **lens)
@@ -310,14 +310,15 @@ class Streams(unittest.TestCase):
             list(engine.stream(bands(8), focus=1, progress=lambda done, rows: done > HEIGHT // 2))
 
     def test_unchanged_parts_of_frames_are_copied(self):
-        engine, buffers, disparity = refocuser(workers=1), [view.copy() for view in VIEWS], DISPARITY.copy()
+        engine = refocuser(workers=1, superblock=64)
+        buffers, disparity = [view.copy() for view in VIEWS], DISPARITY.copy()
         reused, expected = [], []
 
         def frames():
             for rows, shift in ((slice(0), 0), (slice(0), 0), (slice(40, 60), 0), (slice(0), 1)):
                 buffers[0][rows, 40:60] += 50
                 disparity[-20:, -20:] -= shift
-                expected.append(refocuser().refocus(buffers, disparity, focus=1))
+                expected.append(refocuser(superblock=64).refocus(buffers, disparity, focus=1))
                 yield buffers, disparity
 
         for picture in engine.frames(frames(), focus=1):
