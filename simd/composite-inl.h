@@ -316,8 +316,12 @@ HWY_INLINE void AddSlice(const SeenSlice& seen, const SliceOffset& offset, int16
   const std::false_type no;
   add(hides & fresh, yes, yes);
   add(shown & ~hides & fresh, yes, no);
+#if HWY_ARCH_WASM  // less code: covering rows need no code of their own to be right
+  add(shown & ~fresh, no, no);
+#else
   add(hides & ~fresh, no, yes);
   add(shown & ~hides & ~fresh, no, no);
+#endif
   open &= ~hides;
   fresh &= ~shown;
 }
