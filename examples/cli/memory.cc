@@ -2,6 +2,14 @@
 // Sets up the memory of the program for pictures and maps. Refocusing a photo of 12 megapixels
 // allocates 420 MB in blocks of 12 to 100 MB, one after another. By default, the C library maps and
 // unmaps each block in pages of 4 KiB, which takes as long as all computations together.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define STARFOCUS_ADDRESS_SANITIZER
+#endif
+#elif defined(__SANITIZE_ADDRESS__)
+#define STARFOCUS_ADDRESS_SANITIZER
+#endif
+#ifndef STARFOCUS_ADDRESS_SANITIZER  // which keeps its own functions, which check each block
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -73,3 +81,5 @@ void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
 void operator delete(void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
+
+#endif
