@@ -83,8 +83,11 @@ HWY_INLINE bool ConvertInside(const float* HWY_RESTRICT z, size_t count, const D
   auto inside = hn::Eq(low, low);
   const bool done = ForVectors(count, hn::Lanes(df), [&](size_t n) HWY_ATTR {
     const auto disparity = hn::Add(scaled(hn::LoadU(df, z + n)), offset);
-    inside = hn::And(inside, hn::And(hn::Ge(disparity, low), hn::Le(disparity, high)));
-    const auto steps = hn::ConvertTo(d32, hn::Floor(hn::Add(disparity, half)));
+    const auto fits = hn::And(hn::Ge(disparity, low), hn::Le(disparity, high));
+    inside = hn::And(inside, fits);
+    // Only values in range can be converted to integers on every target.
+    const auto known = hn::IfThenElse(fits, disparity, low);
+    const auto steps = hn::ConvertTo(d32, hn::Floor(hn::Add(known, half)));
     hn::StoreU(hn::DemoteTo(d16, steps), d16, out + n);
   });
   return done && hn::AllTrue(df, inside);
