@@ -79,7 +79,7 @@ class RimSummer {
     }
   }
 
-  // Returns true if a pixel of a row of the patch is beside a nearer surface. Compilers vectorize
+  // Returns true if any pixel of row y of the patch is beside a nearer surface. Compilers vectorize
   // the loop.
   bool HasEdge(int32_t y) const {
     const int16_t* const row = rows_[y - top_ + kReach] + left_;

@@ -141,7 +141,7 @@ SliceOffset Offset(int whole, Draw* draw) {
   const auto edge = int16_t(-first);
   if (taps == 2) return SliceOffset::Of(whole, edge, edge, 0, 0);
   if (taps == 3) return SliceOffset::Of(whole, int16_t(draw->Int(-32768, 0)), edge, 0, 0);
-  // As in the engine, the first and the last samples have at most three quarters of the weight.
+  // The first and the last samples together weigh at most three quarters (SliceOffset).
   const int third = draw->Int(1, std::max(1, 24576 - first));
   const int fourth = taps == 4 ? 0 : draw->Int(0, third);
   return SliceOffset::Of(whole, edge, edge, int16_t(-third), int16_t(-fourth));

@@ -22,7 +22,7 @@
 namespace starfocus::bench {
 namespace {
 
-// Of the 17 views of the star, shift-and-add uses the 13 views inside the lens.
+// Shift-and-add uses the 13 of these 17 views that lie inside the lens.
 constexpr int kViews = 5, kRivalViews = 17;
 
 // The engine and its rival with vectors of one width.
