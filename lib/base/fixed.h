@@ -172,6 +172,11 @@ inline int32_t LowestBit(uint32_t bits) { return __builtin_ctz(bits); }
 // Returns the index of the highest set bit; bits != 0.
 inline int32_t HighestBit(uint32_t bits) { return 31 - __builtin_clz(bits); }
 
+// Returns the number of bits that are 1.
+inline uint32_t CountBits(uint64_t bits) {
+  return static_cast<uint32_t>(__builtin_popcountll(bits));
+}
+
 // Calls visit(index) for each set bit, in ascending order.
 template <class Visit>
 void ForEachBit(uint32_t bits, const Visit& visit) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/slices/compositor.h"
 
-#include <bitset>
 #include <cstring>
 
 #include "lib/io/block_pixels.h"
@@ -172,7 +171,7 @@ void CountSurfaces(const LayeredDepth& surfaces, starfocus_layer_report* counts)
   counts->surface_pixels += pixels;
   if (surfaces.repeats) counts->filled_pixels += pixels;
   for (int32_t y = 0; y < surfaces.height; ++y) {
-    counts->hidden_pixels += simd::kSliceLanes * std::bitset<64>(surfaces.hiding[y]).count();
+    counts->hidden_pixels += simd::kSliceLanes * CountBits(surfaces.hiding[y]);
   }
 }
 

@@ -2,7 +2,6 @@
 #include "lib/slices/slice_plane.h"
 
 #include <algorithm>
-#include <bitset>
 #include <cstring>
 
 namespace starfocus {
@@ -265,7 +264,7 @@ uint64_t FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces, c
     const int32_t from = Clamp(y + row, 0, surfaces.height - 1), left = surfaces.height - from;
     rows = from > y + row ? 1 : Min(kRangeRows - from % kRangeRows, Min(placed.rows - row, left));
     const uint64_t groups = FindGroups(surfaces, slice, columns, from);
-    selected += std::bitset<64>(groups).count() * static_cast<size_t>(rows) * simd::kSliceLanes;
+    selected += CountBits(groups) * static_cast<size_t>(rows) * simd::kSliceLanes;
     if (groups != 0) {
       SelectRows(kernels, surfaces, slice, groups, {x, from, width, rows}, row, placed);
     } else {
