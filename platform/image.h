@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// An 8-bit RGB picture in memory.
+// Pictures in memory: of 8 bits, and of 16 bits.
 #ifndef STARFOCUS_PLATFORM_IMAGE_H_
 #define STARFOCUS_PLATFORM_IMAGE_H_
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "starfocus/starfocus.h"
 
 namespace starfocus {
 
@@ -29,6 +31,27 @@ struct Image {
   size_t stride() const { return size_t(3) * size_t(width); }
   uint8_t* row(int y) { return pixels.data() + size_t(y) * stride(); }
   const uint8_t* row(int y) const { return pixels.data() + size_t(y) * stride(); }
+};
+
+// A picture with samples of 16 bits, for light that 8 bits cannot hold. Integers are codes of
+// `transfer`, of which 65535 is white for sRGB and linear light; their alpha is not multiplied with
+// the colours. Half floats are linear light, of which 1 is white; their colours are premultiplied
+// with alpha.
+struct DeepImage {
+  int width = 0;
+  int height = 0;
+  int channels = 3;                            // 3: R, G and B; 4: also alpha
+  bool is_half = false;                        // true: IEEE half floats
+  int32_t transfer = STARFOCUS_TRANSFER_SRGB;  // starfocus_transfer of integers
+  std::vector<uint16_t> samples;               // rows without padding
+
+  DeepImage() = default;
+  DeepImage(int w, int h, int c)
+      : width(w), height(h), channels(c), samples(size_t(w) * size_t(h) * size_t(c)) {}
+
+  size_t row_samples() const { return size_t(channels) * size_t(width); }
+  uint16_t* row(int y) { return samples.data() + size_t(y) * row_samples(); }
+  const uint16_t* row(int y) const { return samples.data() + size_t(y) * row_samples(); }
 };
 
 }  // namespace starfocus

@@ -3,6 +3,7 @@
 #ifndef STARFOCUS_PLATFORM_METADATA_H_
 #define STARFOCUS_PLATFORM_METADATA_H_
 
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -28,14 +29,15 @@ struct Metadata {
 
 // A picture with the metadata of its file.
 struct DecodedPicture {
-  Image image;
+  Image image;                    // The picture in 8 bits.
+  std::optional<DeepImage> deep;  // The same picture, if the file has more than 8 bits or alpha.
   Metadata metadata;
   bool is_transparent = false;  // True if the file has an alpha channel that is not opaque.
 };
 
 inline Result<DecodedPicture> WithoutMetadata(Result<Image> image) {
   if (!image) return image.error();
-  return DecodedPicture{std::move(*image), {}};
+  return DecodedPicture{std::move(*image), {}, {}};
 }
 
 }  // namespace starfocus

@@ -82,7 +82,7 @@ Result<DecodedPicture> DecodeWebp(const std::string& where, const Bytes& webp) {
                           result.pixels.size()};
   status = WebPDecode(webp.data(), webp.size(), &config);
   if (status != VP8_STATUS_OK) return Failed(where, status);
-  return DecodedPicture{std::move(result), ReadMetadata(webp), config.input.has_alpha != 0};
+  return DecodedPicture{std::move(result), {}, ReadMetadata(webp), config.input.has_alpha != 0};
 }
 
 }  // namespace starfocus

@@ -27,15 +27,25 @@ extern "C" {
  *  up. A chroma sample belongs to 2 x 2 pixels, or to fewer pixels at the right and bottom edges of
  *  pictures of odd size. */
 typedef enum starfocus_format {
-  STARFOCUS_FORMAT_RGB = 0,        /**< planes[0]: R, G, B. */
-  STARFOCUS_FORMAT_BGR = 1,        /**< planes[0]: B, G, R. */
-  STARFOCUS_FORMAT_RGBX = 2,       /**< planes[0]: R, G, B, alpha; alpha is copied to the output. */
-  STARFOCUS_FORMAT_BGRX = 3,       /**< planes[0]: B, G, R, alpha; alpha is copied to the output. */
-  STARFOCUS_FORMAT_NV12 = 4,       /**< planes[0]: Y; planes[1]: U, V. */
-  STARFOCUS_FORMAT_NV21 = 5,       /**< planes[0]: Y; planes[1]: V, U. */
-  STARFOCUS_FORMAT_I420 = 6,       /**< planes[0]: Y; planes[1]: U; planes[2]: V. */
-  STARFOCUS_FORMAT_YUV_420_888 = 7 /**< As I420, with chroma samples 1 or 2 bytes apart
-                                        (pixel_stride), as Android's cameras store them. */
+  STARFOCUS_FORMAT_RGB = 0,  /**< planes[0]: R, G, B. */
+  STARFOCUS_FORMAT_BGR = 1,  /**< planes[0]: B, G, R. */
+  STARFOCUS_FORMAT_RGBX = 2, /**< planes[0]: R, G, B, alpha; alpha is copied to the output. */
+  STARFOCUS_FORMAT_BGRX = 3, /**< planes[0]: B, G, R, alpha; alpha is copied to the output. */
+  STARFOCUS_FORMAT_NV12 = 4, /**< planes[0]: Y; planes[1]: U, V. */
+  STARFOCUS_FORMAT_NV21 = 5, /**< planes[0]: Y; planes[1]: V, U. */
+  STARFOCUS_FORMAT_I420 = 6, /**< planes[0]: Y; planes[1]: U; planes[2]: V. */
+  STARFOCUS_FORMAT_YUV_420_888 = 7, /**< As I420, with chroma samples 1 or 2 bytes apart
+                                         (pixel_stride), as Android's cameras store them. */
+  /* The following formats require STARFOCUS_FEATURE_DEEP. Their samples are 16-bit words in the
+   * byte order of the machine. */
+  STARFOCUS_FORMAT_RGB16 = 8,      /**< planes[0]: R, G, B, codes from 0 to 65535. */
+  STARFOCUS_FORMAT_RGBA16 = 9,     /**< As RGB16, with alpha, which is refocused. */
+  STARFOCUS_FORMAT_RGB_HALF = 10,  /**< planes[0]: R, G, B, half floats of linear light; white is
+                                        1. */
+  STARFOCUS_FORMAT_RGBA_HALF = 11, /**< As RGB_HALF, premultiplied with alpha, which is
+                                        refocused. */
+  STARFOCUS_FORMAT_P010 = 12,      /**< As NV12, with 10 bits in the upper bits of each word. */
+  STARFOCUS_FORMAT_P210 = 13       /**< As P010, with as many rows of chroma as of luma. */
 } starfocus_format;
 
 /** Matrix of YUV formats. With Kr, Kb = 0.299, 0.114 (BT.601) or 0.2126, 0.0722 (BT.709), and

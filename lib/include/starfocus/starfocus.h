@@ -292,8 +292,11 @@ typedef enum starfocus_transfer {
   /** The sRGB curve (IEC 61966-2-1), as in most photographs. Light has 15 bits; docs/library.md
    *  states when dark pixels may differ by one code. */
   STARFOCUS_TRANSFER_SRGB = 0,
-  /** Codes are averaged without conversion to light, as in the paper. */
-  STARFOCUS_TRANSFER_NONE = 1
+  /** Codes are averaged without conversion to light, as in the paper. Pictures of linear light have
+   *  this transfer. */
+  STARFOCUS_TRANSFER_NONE = 1,
+  STARFOCUS_TRANSFER_PQ = 2, /**< SMPTE ST 2084 (PQ); white is 203 cd/m2, as in ITU-R BT.2408. */
+  STARFOCUS_TRANSFER_HLG = 3 /**< ARIB STD-B67 (HLG), light of the scene; white is code 0.75. */
 } starfocus_transfer;
 
 /** Configuration of an engine. Call starfocus_config_init first. */
