@@ -84,7 +84,7 @@ std::optional<Primaries> PrimariesOf(const ColourDescription& colours) {
   return found == nullptr ? std::nullopt : std::optional(*found);
 }
 
-std::optional<Transfer> TransferOf(const ColourDescription& colours) {
+std::optional<Transfer> TransferRowOf(const ColourDescription& colours) {
   if (colours.transfer == ColourDescription::kGiven) {
     return Transfer{colours.transfer, "", colours.gamma / 1e5, 1, 0, 0};
   }
@@ -300,10 +300,34 @@ bool IsLinear(const ColourDescription& colours) {
          (colours.transfer == ColourDescription::kGiven && IsNear(colours.gamma, 100000, 100));
 }
 
-std::string NameOf(const ColourDescription& colours) {
+std::optional<Chromaticities> ChromaticitiesOf(const ColourDescription& colours) {
   const std::optional<Primaries> primaries = PrimariesOf(colours);
-  const std::optional<Transfer> transfer = TransferOf(colours);
-  std::string text = primaries ? primaries->name : "primaries " + std::to_string(colours.primaries);
+  if (!primaries) return std::nullopt;
+  return primaries->at;
+}
+
+int PrimariesCodeOf(const ColourDescription& colours) {
+  constexpr int32_t kRounding = 10;
+  const std::optional<Primaries> primaries = PrimariesOf(colours);
+  if (!primaries) return ColourDescription::kUnspecified;
+  for (const Primaries& row : kPrimaries) {
+    bool equal = row.code < ColourDescription::kGiven;
+    for (size_t k = 0; k < row.at.size(); ++k) {
+      equal = equal && IsNear(primaries->at[k], row.at[k], kRounding);
+    }
+    if (equal) return row.code;
+  }
+  return ColourDescription::kUnspecified;
+}
+
+std::string PrimariesNameOf(const ColourDescription& colours) {
+  const std::optional<Primaries> primaries = PrimariesOf(colours);
+  return primaries ? primaries->name : "primaries " + std::to_string(colours.primaries);
+}
+
+std::string NameOf(const ColourDescription& colours) {
+  const std::optional<Transfer> transfer = TransferRowOf(colours);
+  std::string text = PrimariesNameOf(colours);
   if (!transfer) {
     text += ", transfer " + std::to_string(colours.transfer);
   } else if (transfer->code == ColourDescription::kGiven) {
@@ -319,7 +343,7 @@ std::string NameOf(const ColourDescription& colours) {
 Bytes ProfileOf(const ColourDescription& colours) {
   constexpr double kLargestExponent = 10;
   const std::optional<Primaries> primaries = PrimariesOf(colours);
-  const std::optional<Transfer> transfer = TransferOf(colours);
+  const std::optional<Transfer> transfer = TransferRowOf(colours);
   if (!primaries || !transfer || !colours.full_range) return {};
   if (!(transfer->exponent > 0.1) || transfer->exponent > kLargestExponent) return {};
   const std::optional<Colorimetry> colorimetry = ColorimetryOf(primaries->at);

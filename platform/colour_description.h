@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "platform/file.h"
@@ -40,6 +41,17 @@ bool IsSrgb(const ColourDescription& colours);
 
 // Returns true if light is proportional to the codes.
 bool IsLinear(const ColourDescription& colours);
+
+// Returns the chromaticities of the primaries and of white, or nullopt if the code point has no
+// definition. Unspecified primaries are those of BT.709.
+std::optional<Chromaticities> ChromaticitiesOf(const ColourDescription& colours);
+
+// Returns the code point of H.273 for the primaries, or kUnspecified if none has these
+// chromaticities.
+int PrimariesCodeOf(const ColourDescription& colours);
+
+// Returns the name of the primaries, for example "Display P3".
+std::string PrimariesNameOf(const ColourDescription& colours);
 
 // Returns a description for users, for example "Display P3, transfer of sRGB".
 std::string NameOf(const ColourDescription& colours);

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <numeric>
 
+#include "platform/decoders/tiff.h"
+
 namespace starfocus {
 namespace {
 
@@ -158,8 +160,14 @@ uint32_t Crc32(const uint8_t* bytes, size_t size) {
 bool MayBePicture(const Bytes& beginning) {
   if (beginning.size() < 12) return true;  // a file of less than 12 bytes is cheap to read
   const bool netpbm = beginning[0] == 'P' && beginning[1] >= '1' && beginning[1] <= '6';
-  return netpbm || IsPng(beginning) || StartsWith(beginning, kJpegSignature) ||
-         std::memcmp(&beginning[0], "RIFF", 4) == 0 || std::memcmp(&beginning[4], "ftyp", 4) == 0;
+  return netpbm || IsExr(beginning) || IsTiff(beginning) || IsPng(beginning) ||
+         StartsWith(beginning, kJpegSignature) || std::memcmp(&beginning[0], "RIFF", 4) == 0 ||
+         std::memcmp(&beginning[4], "ftyp", 4) == 0;
+}
+
+bool IsExr(const Bytes& bytes) {
+  constexpr uint8_t kExrSignature[] = {'v', '/', '1', 1};
+  return StartsWith(bytes, kExrSignature);
 }
 
 bool IsPng(const Bytes& bytes) { return StartsWith(bytes, kPngSignature); }

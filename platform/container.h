@@ -33,11 +33,15 @@ std::string DescribeFile(const Bytes& bytes, const std::string& advice = "");
 // Returns true if a PNG file ends within a chunk, or lacks its last chunk.
 bool IsTruncatedPng(const Bytes& png);
 
-// Returns true if the first bytes may belong to a picture: PNG, JPEG, WebP, HEIF, PPM or PGM.
+// Returns true if the first bytes may belong to a picture: PNG, JPEG, WebP, HEIF, TIFF,
+// OpenEXR, PPM or PGM.
 bool MayBePicture(const Bytes& beginning);
 
 // Returns true if the bytes start with the signature of PNG files.
 bool IsPng(const Bytes& bytes);
+
+// Returns true if the bytes start with the signature of OpenEXR files.
+bool IsExr(const Bytes& bytes);
 
 // A segment of a JPEG file: its marker, and the range of its content after the length field.
 struct JpegSegment {

@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "platform/container.h"
+#include "platform/decoders/exr.h"
 #include "platform/decoders/npy.h"
 #include "platform/decoders/npz.h"
 #include "platform/decoders/tiff.h"
@@ -35,16 +36,6 @@ bool IsPicture(const Bytes& bytes) {
          HasMagic(bytes, "P6");
 }
 
-// Returns how to convert a depth map or matte to a format that can be read.
-std::string Conversion(bool is_matte, const Bytes& bytes) {
-  if (!StartsWith(bytes, "v/1\x01")) {
-    return is_matte ? " (convert the matte to PNG)"
-                    : " (convert the map to PFM or NPY, or to PNG of 16 bits)";
-  }
-  return is_matte ? " (oiiotool FILE --ch A -o matte.png writes its alpha channel)"
-                  : " (oiiotool FILE --ch Z -d float -o map.tif writes its channel Z as TIFF)";
-}
-
 }  // namespace
 
 Result<Samples> DecodeDepthFile(const std::string& where, Alpha alpha, const Bytes& bytes) {
@@ -58,11 +49,14 @@ Result<Samples> DecodeDepthFile(const std::string& where, Alpha alpha, const Byt
   if (IsNpy(bytes)) return DecodeNpy(where, is_matte, bytes);
   if (IsZip(bytes)) return DecodeNpz(where, is_matte, bytes);
   if (IsTiff(bytes)) return DecodeTiff(where, is_matte, bytes);
+  if (IsExr(bytes)) return DecodeExrSamples(where, is_matte, bytes);
   if (IsPicture(bytes)) return DecodeSamples(where, alpha, bytes);
-  return Expected(where,
-                  std::string(is_matte ? "a matte" : "a depth picture") +
-                      " (PFM, TIFF, NPY, NPZ, PNG, PGM, PPM, JPEG or WebP)",
-                  DescribeFile(bytes) + Conversion(is_matte, bytes));
+  return Expected(
+      where,
+      std::string(is_matte ? "a matte" : "a depth picture") +
+          " (PFM, TIFF, OpenEXR, NPY, NPZ, PNG, PGM, PPM, JPEG or WebP)",
+      DescribeFile(bytes) + (is_matte ? " (convert the matte to PNG)"
+                                      : " (convert the map to PFM or NPY, or to PNG of 16 bits)"));
 }
 
 }  // namespace starfocus

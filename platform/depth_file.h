@@ -13,8 +13,9 @@
 namespace starfocus {
 
 // Decodes a depth map or, if `alpha` is kTaken, a matte: PFM, NPY (decoders/npy.h), NPZ
-// (decoders/npz.h), TIFF (decoders/tiff.h), or a picture (levels.h). `alpha` applies to pictures.
-// `where` appears only in error messages, which state how to convert files of other formats.
+// (decoders/npz.h), TIFF (decoders/tiff.h), OpenEXR (decoders/exr.h), or a picture (levels.h).
+// `alpha` applies to pictures. `where` appears only in error messages, which state how to convert
+// files of other formats.
 Result<Samples> DecodeDepthFile(const std::string& where, Alpha alpha, const Bytes& bytes);
 
 }  // namespace starfocus

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "platform/container.h"
+#include "platform/decoders/exr.h"
 #include "platform/decoders/jpeg.h"
 #include "platform/decoders/limits.h"
 #include "platform/decoders/png.h"
@@ -19,7 +20,7 @@
 namespace starfocus {
 namespace {
 
-constexpr char kFormats[] = "a PNG, PPM, JPEG or WebP picture";
+constexpr char kFormats[] = "a PNG, PPM, JPEG, WebP or OpenEXR picture";
 
 // Returns true if a PNG file can contain the pixels that its header declares. Deflate expands a
 // byte to at most 1032 bytes. The check is required because stb_image would allocate memory for any
@@ -59,6 +60,10 @@ Result<DecodedPicture> DecodeImage(const std::string& where, const Bytes& bytes)
   if (IsPng(bytes)) return DecodePng(where, bytes);
   if (IsWebp(bytes)) return DecodeWebp(where, bytes);
   if (IsJpegStart(bytes)) return WithoutMetadata(DecodeJpeg(where, bytes));
+  if (IsExr(bytes)) {
+    std::vector<std::string> notes;
+    return DecodeExr(where, bytes, &notes);
+  }
   return Expected(
       where, kFormats,
       DescribeFile(bytes, " (convert it to PNG or JPEG, for example with ImageMagick)"));

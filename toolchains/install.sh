@@ -22,6 +22,7 @@ libjpeg62-turbo-dev      build  jpeglib.h
 libpng-dev               build  png.h
 libdeflate-dev           build  libdeflate.h
 libtiff-dev              build  tiffio.h
+libopenexr-dev           build  OpenEXR/openexr.h
 libwebp-dev              build  webp/mux.h
 libexpat1-dev            build  expat.h
 libexif-dev              build  libexif/exif-data.h
@@ -31,6 +32,7 @@ libseccomp-dev           build  seccomp.h
 libimage-exiftool-perl   test   exiftool
 webp                     test   webpinfo
 libsixel-bin             test   sixel2png
+openexr                  test   exrinfo
 clang                    fuzz   clang
 libclang-rt-14-dev       fuzz   -
 libbenchmark-dev         -      benchmark/benchmark.h

@@ -12,9 +12,10 @@
 
 namespace starfocus {
 
-// Decodes a PNG file to 8-bit RGB. Grey is converted to RGB, 16 bits are rounded to 8, and
-// transparency is ignored. DecodePng uses libpng if available, and otherwise stb_image. Only builds
-// with libpng return the ICC profile and EXIF. `where` appears only in error messages.
+// Decodes a PNG file to 8-bit RGB and, if it has 16 bits, a pixel that is not opaque, or PQ or HLG
+// (cICP), to a DeepImage (CompleteDeep). Grey is converted to RGB. DecodePng uses libpng if
+// available, and otherwise stb_image. Only builds with libpng return a DeepImage, the ICC profile
+// and EXIF. `where` appears only in error messages.
 Result<DecodedPicture> DecodePngPixels(const std::string& where, const Bytes& png);
 
 }  // namespace starfocus

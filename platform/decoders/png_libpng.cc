@@ -11,8 +11,11 @@
 #include <cstring>
 #include <new>
 
+#include "platform/decoders/deep.h"
 #include "platform/decoders/exif_bytes.h"
+#include "platform/decoders/numbers.h"
 #include "platform/decoders/png_text.h"
+#include "platform/png.h"
 #include "platform/png_call.h"
 
 namespace starfocus {
@@ -26,7 +29,7 @@ struct Call : PngCall {
   Bytes exif = {};  // EXIF from a text chunk
   std::string xmp = {};
   ColourDescription colours = {};  // from the chunk cICP
-  bool is_transparent = false;     // true if a pixel is not opaque
+  bool is_deep = false;            // true if rows have 16 bits, and alpha if the file has it
 };
 
 void Take(png_structp png, png_bytep data, png_size_t size) {
@@ -73,17 +76,6 @@ int TakeChunk(png_structp png, png_unknown_chunkp chunk) {
   return -1;
 }
 
-// Removes the alpha samples of a row of RGB and alpha, and records whether a pixel is not opaque.
-void DropAlpha(png_structp png, png_row_infop row, png_bytep samples) {
-  Call* call = static_cast<Call*>(png_get_user_transform_ptr(png));
-  uint8_t opaque = 255;
-  for (png_uint_32 x = 0; x < row->width; ++x) {
-    opaque &= samples[4 * size_t(x) + 3];
-    std::copy_n(samples + 4 * size_t(x), 3, samples + 3 * size_t(x));
-  }
-  call->is_transparent = call->is_transparent || opaque != 255;
-}
-
 // Owns libpng's structures.
 struct Reader {
   png_structp png = nullptr;
@@ -117,15 +109,18 @@ bool ReadHeader(Call* call, Reader* reader) {
   png_set_read_user_chunk_fn(png, call, TakeChunk);
   png_read_info(png, reader->info);
   png_set_packing(png);
-  png_set_scale_16(png);
   const png_byte colour = png_get_color_type(png, reader->info);
   const bool has_key = png_get_valid(png, reader->info, PNG_INFO_tRNS) != 0;
-  if (colour != PNG_COLOR_TYPE_PALETTE && (has_key || (colour & PNG_COLOR_MASK_ALPHA) != 0)) {
-    if (has_key) png_set_tRNS_to_alpha(png);
-    png_set_read_user_transform_fn(png, DropAlpha);
-    png_set_user_transform_info(png, call, 8, 3);
+  const bool has_alpha = has_key || (colour & PNG_COLOR_MASK_ALPHA) != 0;
+  call->is_deep =
+      colour != PNG_COLOR_TYPE_PALETTE &&
+      (has_alpha || png_get_bit_depth(png, reader->info) == 16 || IsHdr(TransferOf(call->colours)));
+  if (call->is_deep) {
+    png_set_expand_16(png);  // also turns tRNS into alpha
+    if (kOwnByteOrder == ByteOrder::kLittle) png_set_swap(png);
+  } else if (colour == PNG_COLOR_TYPE_GRAY) {
+    png_set_expand_gray_1_2_4_to_8(png);
   }
-  if (colour == PNG_COLOR_TYPE_GRAY) png_set_expand_gray_1_2_4_to_8(png);
   if ((colour & PNG_COLOR_MASK_COLOR) == 0) png_set_gray_to_rgb(png);
   png_set_interlace_handling(png);
   png_read_update_info(png, reader->info);
@@ -155,6 +150,7 @@ Error Failed(const std::string& where, const Call& call) {
 Error LookUp(const std::string& where, const Reader& reader, const Bytes& indices,
              DecodedPicture* picture) {
   Image* image = &picture->image;
+  Bytes alphas(indices.size(), 255);
   png_colorp palette = nullptr;
   int colours = 0;
   png_get_PLTE(reader.png, reader.info, &palette, &colours);
@@ -166,12 +162,14 @@ Error LookUp(const std::string& where, const Reader& reader, const Bytes& indice
       return Expected(where, "palette indices below " + std::to_string(colours),
                       std::to_string(indices[i]));
     }
-    picture->is_transparent |= indices[i] < some && opacities[indices[i]] < 255;
+    if (indices[i] < some) alphas[i] = opacities[indices[i]];
+    picture->is_transparent |= alphas[i] < 255;
     const png_color& colour = palette[indices[i]];
     image->pixels[3 * i] = colour.red;
     image->pixels[3 * i + 1] = colour.green;
     image->pixels[3 * i + 2] = colour.blue;
   }
+  if (picture->is_transparent) picture->deep = Widen(*image, alphas);
   return {};
 }
 
@@ -223,19 +221,30 @@ Result<DecodedPicture> DecodePngPixels(const std::string& where, const Bytes& pn
   if (!ReadHeader(&call, &reader)) return Failed(where, call);
   const bool palette = png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_PALETTE;
   DecodedPicture result = {};
-  result.image = Image(static_cast<int>(png_get_image_width(reader.png, reader.info)),
-                       static_cast<int>(png_get_image_height(reader.png, reader.info)));
-  Image* image = &result.image;
-  Bytes indices(palette ? image->pixels.size() / 3 : 0);
-  const size_t row_bytes = palette ? size_t(image->width) : image->stride();
+  const auto width = static_cast<int>(png_get_image_width(reader.png, reader.info)),
+             height = static_cast<int>(png_get_image_height(reader.png, reader.info));
+  Bytes indices(palette ? size_t(width) * size_t(height) : 0);
+  size_t row_bytes = size_t(width);
+  uint8_t* rows = indices.data();
+  if (call.is_deep) {
+    const bool has_alpha = png_get_channels(reader.png, reader.info) == 4;
+    result.deep = DeepImage(width, height, has_alpha ? 4 : 3);
+    row_bytes = result.deep->row_samples() * sizeof(uint16_t);
+    rows = reinterpret_cast<uint8_t*>(result.deep->samples.data());
+  } else {
+    result.image = Image(width, height);
+    if (!palette) {
+      row_bytes = result.image.stride();
+      rows = result.image.pixels.data();
+    }
+  }
   if (png_get_rowbytes(reader.png, reader.info) != row_bytes) {
     return Expected(where, "a PNG picture that libpng can convert to RGB", "another format");
   }
-  uint8_t* const rows = palette ? indices.data() : image->pixels.data();
-  if (!ReadRows(reader, image->height, row_bytes, rows)) return Failed(where, call);
-  result.is_transparent = call.is_transparent;
+  if (!ReadRows(reader, height, row_bytes, rows)) return Failed(where, call);
   if (Error error = palette ? LookUp(where, reader, indices, &result) : Error()) return error;
   result.metadata = TakeMetadata(reader, &call);
+  CompleteDeep(ReadPngHeader(png)->depth, &result);
   return result;
 }
 

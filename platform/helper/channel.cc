@@ -125,6 +125,20 @@ void Pass(Channel* channel, Image* image) {
   PassPixels(channel, &width, &height, 3, &pixels);
 }
 
+void Pass(Channel* channel, std::optional<DeepImage>* deep) {
+  bool has_deep = deep->has_value();
+  channel->Value(&has_deep);
+  if (!has_deep) return deep->reset();
+  if (channel->direction() == Direction::kReceive) deep->emplace();
+  auto& [width, height, channels, is_half, transfer, samples] = **deep;
+  channel->Value(&channels);
+  channel->Value(&is_half);
+  channel->Value(&transfer);
+  channel->Require(channels == 3 || channels == 4);
+  channel->Require(transfer >= STARFOCUS_TRANSFER_SRGB && transfer <= STARFOCUS_TRANSFER_HLG);
+  PassPixels(channel, &width, &height, static_cast<size_t>(channels), &samples);
+}
+
 void Pass(Channel* channel, FloatMap* map) {
   auto& [width, height, values] = *map;
   PassPixels(channel, &width, &height, 1, &values);

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -112,6 +113,7 @@ class Channel {
 
 void Pass(Channel* channel, bool* value);
 void Pass(Channel* channel, Image* image);
+void Pass(Channel* channel, std::optional<DeepImage>* deep);
 void Pass(Channel* channel, FloatMap* map);
 void Pass(Channel* channel, ColourDescription* colours);
 void Pass(Channel* channel, Metadata* metadata);

@@ -135,6 +135,8 @@ Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options
   }
   capture.format = photo.format;
   capture.metadata = std::move(photo.metadata);
+  capture.deep = std::move(photo.deep);
+  capture.deep_colours = std::move(photo.deep_colours);
   capture.facts = std::move(photo.facts);
   capture.notes = std::move(photo.notes);
   if (photo.is_blurred) {

@@ -5,6 +5,7 @@
 #ifndef STARFOCUS_PLATFORM_READERS_CAPTURE_H_
 #define STARFOCUS_PLATFORM_READERS_CAPTURE_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,9 @@ struct Capture {
   int subject_x = 0, subject_y = 0;  // Pixel of the subject as stated by EXIF.
   double focus = NAN;                // Disparity in focus; NaN: unknown.
   Metadata metadata;
+  // Picture of a photo with more than 8 bits or alpha, and its colours (DepthPhoto::deep).
+  std::optional<DeepImage> deep;
+  ColourDescription deep_colours;
   Facts facts;
   std::vector<std::string> notes;
   LightField light_field;  // Filled by OpenCapture for one-file inputs, otherwise by LoadCapture.

@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "platform/container.h"
+#include "platform/decoders/exr.h"
 #include "platform/helper/helper.h"
 #include "platform/image_io.h"
 #include "platform/readers/apple_depth.h"
 #include "platform/readers/confined_photo.h"
 #include "platform/readers/decoding_memory.h"
+#include "platform/readers/deep_photo.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/dynamic_depth.h"
 #include "platform/readers/exif.h"
@@ -324,19 +326,32 @@ Error FindMatte(const std::string& path, const DepthOptions& options, const Phot
   return CheckOptions(where, options, depth, !files.matte.empty());
 }
 
+Result<DepthPhoto> DecodeExrPhoto(const std::string& where, const Bytes& bytes) {
+  DepthPhoto photo;
+  Result<DecodedPicture> picture = DecodeExr(where, bytes, &photo.notes);
+  if (!picture) return picture.error();
+  constexpr int kHalfBits = 16;
+  const bool is_transparent = picture->is_transparent;
+  TakePicture(kHalfBits, std::move(*picture), &photo);
+  NoteTransparency(is_transparent, &photo.notes);
+  ChooseProfile(&photo);
+  return photo;
+}
+
 }  // namespace
 
 Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near) {
   if (IsHeif(file)) return ReadHeif(where, file, near);
   if (IsJpeg(file)) return DecodeJpegPhoto(where, file, with_map, near);
   const Bytes bytes(file.data, file.data + file.size);
+  if (IsExr(bytes)) return DecodeExrPhoto(where, bytes);
   Result<DecodedPicture> picture = DecodeImage(where, bytes);
   if (!picture) return picture.error();
   DepthPhoto photo;
-  photo.picture = std::move(picture->image);
-  photo.metadata = std::move(picture->metadata);
+  const bool is_transparent = picture->is_transparent;
+  TakePicture(SampleBitsOf(bytes), std::move(*picture), &photo);
   NoteSampleBits(SampleBitsOf(bytes), &photo.notes);
-  NoteTransparency(picture->is_transparent, &photo.notes);
+  NoteTransparency(is_transparent, &photo.notes);
   ReadExif(&photo);
   ChooseProfile(&photo);
   KeepCaptions(&photo);

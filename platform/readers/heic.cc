@@ -17,9 +17,12 @@
 #ifdef STARFOCUS_HAS_HEIF
 #include <libheif/heif.h>
 
+#include "platform/decoders/deep.h"
+#include "platform/decoders/numbers.h"
 #include "platform/helper/decoder_threads.h"
 #include "platform/readers/apple_depth.h"
 #include "platform/readers/apple_mattes.h"
+#include "platform/readers/deep_photo.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/exif.h"
 #include "platform/readers/heif_limits.h"
@@ -98,6 +101,56 @@ Result<Image> DecodePicture(const std::string& where, const heif_image_handle* h
   return image;
 }
 
+// Converts codes that are multiplied with alpha to straight codes.
+void DivideByAlpha(DeepImage* deep) {
+  for (size_t at = 0; at < deep->samples.size(); at += 4) {
+    uint16_t* pixel = &deep->samples[at];
+    const uint32_t alpha = pixel[3];
+    for (int c = 0; c < 3 && alpha > 0; ++c) {
+      pixel[c] = static_cast<uint16_t>(std::min(65535U, (pixel[c] * 65535U + alpha / 2) / alpha));
+    }
+  }
+}
+
+// Decodes a picture of more than 8 bits or with alpha to codes of 16 bits.
+Result<DeepImage> DecodeCodes(const std::string& where, const heif_image_handle* handle) {
+  const bool is_wide = heif_image_handle_get_luma_bits_per_pixel(handle) > 8,
+             is_little = kOwnByteOrder == ByteOrder::kLittle,
+             has_alpha = heif_image_handle_has_alpha_channel(handle) != 0;
+  const heif_chroma wide = is_little   ? has_alpha ? heif_chroma_interleaved_RRGGBBAA_LE
+                                                   : heif_chroma_interleaved_RRGGBB_LE
+                           : has_alpha ? heif_chroma_interleaved_RRGGBBAA_BE
+                                       : heif_chroma_interleaved_RRGGBB_BE;
+  const Result<Decoded> decoded =
+      Decode(where, handle, heif_colorspace_RGB, is_wide ? wide : heif_chroma_interleaved_RGBA);
+  if (!decoded) return decoded.error();
+  const heif_image* raw = decoded->get();
+  if (!heif_image_has_channel(raw, heif_channel_interleaved)) {
+    return Expected(where, "a decoded picture", "none");
+  }
+  int stride = 0;
+  const uint8_t* rows = heif_image_get_plane_readonly(raw, heif_channel_interleaved, &stride);
+  const int bits = is_wide ? heif_image_get_bits_per_pixel_range(raw, heif_channel_interleaved) : 8;
+  DeepImage deep(heif_image_get_width(raw, heif_channel_interleaved),
+                 heif_image_get_height(raw, heif_channel_interleaved),
+                 has_alpha || !is_wide ? 4 : 3);
+  if (rows == nullptr || deep.samples.empty() || bits < 8 || bits > 16) {
+    return Expected(where, "a picture of 8 to 16 bits", "another bit depth");
+  }
+  const auto most = (uint32_t{1} << bits) - 1;
+  for (int y = 0; y < deep.height; ++y) {
+    const uint8_t* row = rows + size_t(y) * size_t(stride);
+    uint16_t* to = deep.row(y);
+    for (size_t k = 0; k < deep.row_samples(); ++k) {
+      uint16_t code = row[k];
+      if (is_wide) std::memcpy(&code, row + 2 * k, sizeof(code));
+      to[k] = static_cast<uint16_t>((std::min<uint32_t>(code, most) * 65535U + most / 2) / most);
+    }
+  }
+  if (has_alpha && heif_image_handle_is_premultiplied_alpha(handle) != 0) DivideByAlpha(&deep);
+  return deep;
+}
+
 // Returns the levels of a depth map, 0 to 1. If samples have more than 8 bits, libheif stores
 // 16-bit integers in the byte order of the machine.
 Result<FloatMap> DecodePlane(const std::string& where, const heif_image_handle* handle) {
@@ -162,6 +215,24 @@ void ReadCodePoints(const heif_image_handle* handle, ColourDescription* colours)
   *colours = {"nclx", primaries, transfer};
 }
 
+// Decodes the picture to 8 bits and, if it has more bits, alpha, PQ or HLG, to codes of 16 bits. In
+// both cases libheif converts YCbCr to RGB, with its own rounding.
+Result<DecodedPicture> DecodeBoth(const std::string& where, const heif_image_handle* handle) {
+  DecodedPicture picture;
+  ReadCodePoints(handle, &picture.metadata.colours);
+  const int bits = heif_image_handle_get_luma_bits_per_pixel(handle);
+  const bool is_hdr = IsHdr(TransferOf(picture.metadata.colours));
+  if (bits > 8 || heif_image_handle_has_alpha_channel(handle) != 0) {
+    Result<DeepImage> deep = DecodeCodes(where, handle);
+    if (deep) picture.deep = std::move(*deep);
+  }
+  if (!picture.deep || !is_hdr) {
+    if (Error error = DecodePicture(where, handle).MoveTo(&picture.image)) return error;
+  }
+  CompleteDeep(bits, &picture);
+  return picture;
+}
+
 void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
   Bytes exif = ReadMetadata(handle, "Exif", nullptr);
   // The first four bytes of the EXIF item are the offset of the TIFF header, counted from the fifth
@@ -175,7 +246,6 @@ void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
   // libheif has already rotated the pictures by the transformations of the file. In most HEIF
   // files, EXIF's orientation equals the transformations of the file and therefore applies to the
   // subject. If the size of the picture contradicts EXIF's orientation, the subject is ignored.
-  ReadCodePoints(handle, &photo->metadata.colours);
   const int stored_width = heif_image_handle_get_ispe_width(handle);
   const int stored_height = heif_image_handle_get_ispe_height(handle);
   ReadExif(stored_width, stored_height, photo);
@@ -187,7 +257,8 @@ void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
   NoteSampleBits(heif_image_handle_get_luma_bits_per_pixel(handle), &photo->notes);
   NoteTransparency(heif_image_handle_has_alpha_channel(handle) != 0, &photo->notes);
   const size_t profile = heif_image_handle_get_raw_color_profile_size(handle);
-  if (profile > 0 && profile <= kMostMetadata) {
+  const bool is_rendition = photo->deep && IsHdr(photo->deep->transfer);
+  if (profile > 0 && profile <= kMostMetadata && !is_rendition) {
     photo->metadata.icc.resize(profile);
     heif_image_handle_get_raw_color_profile(handle, photo->metadata.icc.data());
   }
@@ -381,7 +452,9 @@ Result<DepthPhoto> Read(const std::string& where, Span file, Near near) {
   DepthPhoto photo;
   photo.format = "HEIF depth photo";
   if (Error error = CheckSize(where, raw, file.size)) return error;
-  if (Error error = DecodePicture(where, raw).MoveTo(&photo.picture)) return error;
+  Result<DecodedPicture> picture = DecodeBoth(where, raw);
+  if (!picture) return picture.error();
+  TakePicture(heif_image_handle_get_luma_bits_per_pixel(raw), std::move(*picture), &photo);
   ReadProfiles(raw, &photo);
   ReadCaptions(raw, &photo);
   photo.map_problem = ReadMap(where, raw, file.size, near, &photo).line();
@@ -430,7 +503,10 @@ bool ReadHeifPair(const std::string& where, Span file, DepthPhoto* photo) {
     const Image& left = has_left ? photo->picture : decoded;
     Result<Image> right = ReadPicture(where, context->get(), ids[1], file.size);
     if (!right || left.width != right->width || left.height != right->height) return false;
-    if (!has_left) photo->picture = std::move(decoded);
+    if (!has_left) {
+      photo->picture = std::move(decoded);
+      photo->deep.reset();
+    }
     photo->right = std::move(*right);
     return true;
   } catch (const std::bad_alloc&) {

@@ -32,19 +32,28 @@ struct Turn {
   }
 };
 
-void TurnPicture(int orientation, Image* image) {
-  const bool swaps = SwapsSides(orientation);
-  Image result(swaps ? image->height : image->width, swaps ? image->width : image->height);
+// Turns a picture with `samples` samples for each pixel.
+template <class Picture>
+void TurnPicture(int orientation, size_t samples, Picture result, Picture* image) {
   const Turn turn = {orientation, result.width, result.height};
   for (int y = 0; y < result.height; ++y) {
-    uint8_t* to = result.row(y);
+    auto* to = result.row(y);
     for (int x = 0; x < result.width; ++x) {
       const auto [from_x, from_y] = turn.Place(x, y);
-      const uint8_t* from = image->row(from_y) + 3 * size_t(from_x);
-      for (int c = 0; c < 3; ++c) *to++ = from[c];
+      const auto* from = image->row(from_y) + samples * size_t(from_x);
+      for (size_t c = 0; c < samples; ++c) *to++ = from[c];
     }
   }
   *image = std::move(result);
+}
+
+void TurnDeep(int orientation, DeepImage* deep) {
+  const bool swaps = SwapsSides(orientation);
+  DeepImage result(swaps ? deep->height : deep->width, swaps ? deep->width : deep->height,
+                   deep->channels);
+  result.is_half = deep->is_half;
+  result.transfer = deep->transfer;
+  TurnPicture(orientation, size_t(deep->channels), std::move(result), deep);
 }
 
 }  // namespace
@@ -74,7 +83,11 @@ void TurnPoint(int orientation, double* x, double* y) {
 void ApplyOrientation(DepthPhoto* photo) {
   const int orientation = photo->orientation;
   if (orientation <= 1 || orientation > 8) return;
-  TurnPicture(orientation, &photo->picture);
+  const bool swaps = SwapsSides(orientation);
+  const Image& picture = photo->picture;
+  Image turned(swaps ? picture.height : picture.width, swaps ? picture.width : picture.height);
+  TurnPicture(orientation, 3, std::move(turned), &photo->picture);
+  if (photo->deep) TurnDeep(orientation, &*photo->deep);
   TurnMap(orientation, &photo->map);
   TurnMap(orientation, &photo->matte);
   TurnPoint(orientation, &photo->focus_x, &photo->focus_y);

@@ -5,6 +5,7 @@
 #define STARFOCUS_PLATFORM_READERS_PHOTO_H_
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +32,10 @@ enum class MapMeaning {
 struct DepthPhoto {
   std::string format;
   Image picture;
+  // The same picture, if the file has more than 8 bits or alpha, and the colours that its file
+  // describes. `picture` and `metadata` describe the picture in 8 bits.
+  std::optional<DeepImage> deep;
+  ColourDescription deep_colours;
   FloatMap map;             // Depth map; NaN: unknown depth; empty: no readable map.
   std::string map_problem;  // Reason why the map in the file cannot be read; may be empty.
   std::string depth_path;   // Path of the depth picture; empty: the map is in the file.

@@ -30,6 +30,10 @@ enum class PngSize { kQuick, kSmall };
 Result<Bytes> EncodePng(const std::string& path, const Image& image, const Metadata& metadata,
                         PngSize size);
 
+// Encodes codes of 16 bits, with alpha if the picture has it. Requires libpng.
+Result<Bytes> EncodeDeepPng(const std::string& path, const DeepImage& image,
+                            const Metadata& metadata, PngSize size);
+
 // Encodes grey levels without scaling: with 8 bits if all levels are at most 255, otherwise with 16
 // bits. Levels of 16 bits require libpng.
 Result<Bytes> EncodeGreyPng(const std::string& path, const GreyImage& image);

@@ -108,7 +108,9 @@ struct FreeCompressor {
 // Compresses the pixels. Temporarily allocates 6 bytes per pixel of 8-bit RGB. Throws
 // std::bad_alloc if memory is insufficient.
 Pixels Compress(const Rows& rows, int level) {
-  const size_t samples = rows.colour == PNG_COLOR_TYPE_RGB ? 3 : 1;
+  const size_t samples = rows.colour == PNG_COLOR_TYPE_RGB         ? 3
+                         : rows.colour == PNG_COLOR_TYPE_RGB_ALPHA ? 4
+                                                                   : 1;
   const size_t row_bytes = size_t(rows.width) * samples * size_t(rows.bits / 8);
   const size_t size = (row_bytes + 1) * size_t(rows.height);
   const std::unique_ptr<uint8_t[]> filtered(new uint8_t[size]);
@@ -176,6 +178,23 @@ Result<Bytes> EncodePng(const std::string& path, const Image& image, const Metad
                         PngSize size) {
   const Rows rows = {image.width,        image.height,        8,
                      PNG_COLOR_TYPE_RGB, image.pixels.data(), image.stride()};
+  return Encode(path, rows, metadata, size == PngSize::kSmall ? kSmallLevel : kLevel);
+}
+
+Result<Bytes> EncodeDeepPng(const std::string& path, const DeepImage& image,
+                            const Metadata& metadata, PngSize size) {
+  Bytes samples;
+  samples.reserve(2 * image.samples.size());
+  for (const uint16_t sample : image.samples) {
+    samples.push_back(static_cast<uint8_t>(sample >> 8));
+    samples.push_back(static_cast<uint8_t>(sample));
+  }
+  const Rows rows = {image.width,
+                     image.height,
+                     16,
+                     image.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
+                     samples.data(),
+                     2 * image.row_samples()};
   return Encode(path, rows, metadata, size == PngSize::kSmall ? kSmallLevel : kLevel);
 }
 

@@ -27,6 +27,10 @@ Result<Bytes> EncodePng(const std::string& path, const Image& image, const Metad
   return Encode(path, image.width, image.height, 3, image.pixels.data());
 }
 
+Result<Bytes> EncodeDeepPng(const std::string& path, const DeepImage&, const Metadata&, PngSize) {
+  return Unsupported(path, "PNG of 16 bits", "libpng");
+}
+
 Result<Bytes> EncodeGreyPng(const std::string& path, const GreyImage& image) {
   Bytes samples;
   for (const uint16_t level : image.levels) {

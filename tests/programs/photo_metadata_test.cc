@@ -165,9 +165,9 @@ std::string Chroma(const std::vector<uint32_t>& xy) {
   return Chunk("cHRM", content);
 }
 
-std::string Cicp(int primaries, int transfer) {
-  return Chunk("cICP",
-               Big(uint32_t(primaries), 1) + Big(uint32_t(transfer), 1) + std::string("\0\1", 2));
+std::string Cicp(int primaries, int transfer, bool full_range = true) {
+  return Chunk("cICP", Big(uint32_t(primaries), 1) + Big(uint32_t(transfer), 1) +
+                           std::string(1, '\0') + Big(full_range ? 1 : 0, 1));
 }
 
 bool HasProfiles() {  // A build without libpng reads no chunks.
@@ -223,18 +223,21 @@ TEST_CASE("PNG: cICP, sRGB, gAMA and cHRM are kept as equivalent profiles") {
   CHECK(Read("a.png", file).metadata.icc == ProfileOf({"cICP", 12, 13}));
 }
 
-TEST_CASE("PNG: PQ, HLG and invalid descriptions are named in a note, and PNG files keep PQ") {
+TEST_CASE("PNG: PQ and HLG are decoded, and invalid or unusual descriptions are named in a note") {
   if (!HasProfiles()) return;
   for (const int transfer : {16, 18}) {
     const DepthPhoto photo = Read("a.png", PngWith(Cicp(9, transfer)));
-    REQUIRE(photo.notes.size() == 1);
-    CHECK(Contains(photo.notes[0], transfer == 16 ? "transfer of PQ" : "transfer of HLG"));
-    CHECK(photo.metadata.icc.empty());
-    const std::string png =
-        TextOf(ValueOf(EncodePicture("a.png", photo.picture, {95, photo.metadata})));
-    CHECK(Contains(png, Cicp(9, transfer)));
-    CHECK(Read("a.png", png).metadata.colours.transfer == transfer);
+    REQUIRE(photo.deep);
+    CHECK(photo.deep->transfer ==
+          (transfer == 16 ? STARFOCUS_TRANSFER_PQ : STARFOCUS_TRANSFER_HLG));
+    CHECK(photo.deep_colours.transfer == transfer);
+    // The picture of 8 bits is a rendition in sRGB.
+    CHECK(photo.metadata.icc == ProfileOf({"cICP", 9, 13}));
+    CHECK(photo.metadata.colours.form.empty());
   }
+  const DepthPhoto narrow = Read("a.png", PngWith(Cicp(9, 16, false)));
+  REQUIRE(narrow.notes.size() == 1);
+  CHECK(Contains(narrow.notes[0], "transfer of PQ, narrow range"));
   const DepthPhoto photo = Read("a.png", PngWith(Gamma(20)));
   REQUIRE(photo.notes.size() == 1);
   CHECK(Contains(photo.notes[0], "invalid"));
@@ -251,10 +254,10 @@ TEST_CASE("HEIF: the code points of the box nclx are kept as an equivalent profi
   CHECK(read(2, 2).metadata.icc.empty());
   CHECK(read(12, 13).metadata.icc == ProfileOf({"nclx", 12, 13}));
   const DepthPhoto pq = read(9, 16);
-  CHECK(pq.metadata.icc.empty());
-  CHECK(pq.metadata.colours.transfer == 16);
-  REQUIRE(pq.notes.size() == 1);
-  CHECK(Contains(pq.notes[0], "BT.2020, transfer of PQ (nclx)"));
+  REQUIRE(pq.deep);
+  CHECK(pq.deep->transfer == STARFOCUS_TRANSFER_PQ);
+  CHECK(pq.deep_colours.transfer == 16);
+  CHECK(pq.metadata.icc == ProfileOf({"nclx", 9, 13}));
 }
 #endif
 

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/decoders/deep.h"
+
+#include "platform/deep_image.h"
+
+namespace starfocus {
+
+int32_t TransferOf(const ColourDescription& colours) {
+  constexpr int kPq = 16, kHlg = 18;  // code points of H.273
+  if (!colours.full_range) return STARFOCUS_TRANSFER_SRGB;
+  if (colours.transfer == kPq) return STARFOCUS_TRANSFER_PQ;
+  if (colours.transfer == kHlg) return STARFOCUS_TRANSFER_HLG;
+  return IsLinear(colours) ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
+}
+
+bool IsHdr(int32_t transfer) {
+  return transfer == STARFOCUS_TRANSFER_PQ || transfer == STARFOCUS_TRANSFER_HLG;
+}
+
+DeepImage Widen(const Image& image, const Bytes& alphas) {
+  DeepImage deep(image.width, image.height, alphas.empty() ? 3 : 4);
+  uint16_t* to = deep.samples.data();
+  const uint8_t* from = image.pixels.data();
+  for (size_t k = 0; k < image.pixels.size() / 3; ++k) {
+    for (int c = 0; c < 3; ++c) *to++ = static_cast<uint16_t>(257 * *from++);
+    if (!alphas.empty()) *to++ = static_cast<uint16_t>(257 * alphas[k]);
+  }
+  return deep;
+}
+
+void CompleteDeep(int bits, DecodedPicture* picture) {
+  const int32_t transfer = TransferOf(picture->metadata.colours);
+  if (!picture->deep && IsHdr(transfer)) picture->deep = Widen(picture->image, {});
+  if (!picture->deep) return;
+  DeepImage& deep = *picture->deep;
+  deep.transfer = transfer;
+  picture->is_transparent = DropOpaqueAlpha(&deep);
+  if (picture->image.pixels.empty() || IsHdr(transfer)) picture->image = ToImage(deep);
+  if (bits <= 8 && !picture->is_transparent && !IsHdr(transfer)) picture->deep.reset();
+}
+
+}  // namespace starfocus
