@@ -11,6 +11,7 @@
 #include "platform/decoders/jpeg.h"
 #include "platform/decoders/limits.h"
 #include "platform/decoders/png.h"
+#include "platform/decoders/tiff.h"
 #include "platform/decoders/webp.h"
 #include "platform/png.h"
 #include "platform/ppm.h"
@@ -20,7 +21,7 @@
 namespace starfocus {
 namespace {
 
-constexpr char kFormats[] = "a PNG, PPM, JPEG, WebP or OpenEXR picture";
+constexpr char kFormats[] = "a PNG, PPM, JPEG, WebP, TIFF or OpenEXR picture";
 
 // Returns true if a PNG file can contain the pixels that its header declares. Deflate expands a
 // byte to at most 1032 bytes. The check is required because stb_image would allocate memory for any
@@ -60,6 +61,7 @@ Result<DecodedPicture> DecodeImage(const std::string& where, const Bytes& bytes)
   if (IsPng(bytes)) return DecodePng(where, bytes);
   if (IsWebp(bytes)) return DecodeWebp(where, bytes);
   if (IsJpegStart(bytes)) return WithoutMetadata(DecodeJpeg(where, bytes));
+  if (IsTiff(bytes)) return DecodeTiffPicture(where, bytes);
   if (IsExr(bytes)) {
     std::vector<std::string> notes;
     return DecodeExr(where, bytes, &notes);

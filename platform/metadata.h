@@ -33,6 +33,7 @@ struct DecodedPicture {
   std::optional<DeepImage> deep;  // The same picture, if the file has more than 8 bits or alpha.
   Metadata metadata;
   bool is_transparent = false;  // True if the file has an alpha channel that is not opaque.
+  int bits = 8;                 // Bits of each sample in the file, if `deep` has a value.
 };
 
 inline Result<DecodedPicture> WithoutMetadata(Result<Image> image) {

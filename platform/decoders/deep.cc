@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/decoders/deep.h"
 
+#include <algorithm>
+
 #include "platform/deep_image.h"
 
 namespace starfocus {
@@ -28,12 +30,23 @@ DeepImage Widen(const Image& image, const Bytes& alphas) {
   return deep;
 }
 
+void DivideByAlpha(DeepImage* deep) {
+  for (size_t at = 0; at < deep->samples.size(); at += 4) {
+    uint16_t* pixel = &deep->samples[at];
+    const uint32_t alpha = pixel[3];
+    for (int c = 0; c < 3 && alpha > 0; ++c) {
+      pixel[c] = static_cast<uint16_t>(std::min(65535U, (pixel[c] * 65535U + alpha / 2) / alpha));
+    }
+  }
+}
+
 void CompleteDeep(int bits, DecodedPicture* picture) {
   const int32_t transfer = TransferOf(picture->metadata.colours);
   if (!picture->deep && IsHdr(transfer)) picture->deep = Widen(picture->image, {});
   if (!picture->deep) return;
+  picture->bits = bits;
   DeepImage& deep = *picture->deep;
-  deep.transfer = transfer;
+  deep.transfer = deep.is_half ? STARFOCUS_TRANSFER_NONE : transfer;
   picture->is_transparent = DropOpaqueAlpha(&deep);
   if (picture->image.pixels.empty() || IsHdr(transfer)) picture->image = ToImage(deep);
   if (bits <= 8 && !picture->is_transparent && !IsHdr(transfer)) picture->deep.reset();

@@ -23,6 +23,9 @@ bool IsHdr(int32_t transfer);
 // the result has an alpha channel.
 DeepImage Widen(const Image& image, const Bytes& alphas);
 
+// Converts codes with alpha that are multiplied with alpha to straight codes.
+void DivideByAlpha(DeepImage* deep);
+
 // Completes a picture of which a decoder has set the metadata and `deep` (codes of 16 bits),
 // `image` or both. `bits` is the number of bits of the samples in the file. Sets the transfer of
 // `deep`, `is_transparent`, and `image` if it is empty or PQ or HLG. Removes `deep` if `image` is

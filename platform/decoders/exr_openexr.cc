@@ -350,6 +350,7 @@ Result<DecodedPicture> DecodeColours(const std::string& where, const Bytes& exr,
                }
              }
            });
+  picture.bits = 16;  // floats are rounded
   picture.is_transparent = DropOpaqueAlpha(&deep);
   picture.image = ToImage(deep);
   picture.metadata.colours = ReadChromaticities(file.header(chosen.part));

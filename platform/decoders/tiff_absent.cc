@@ -8,4 +8,8 @@ Result<Samples> DecodeTiff(const std::string& where, bool, const Bytes&) {
   return Unsupported(where, "TIFF", "libtiff (Debian: libtiff-dev)");
 }
 
+Result<DecodedPicture> DecodeTiffPicture(const std::string& where, const Bytes&) {
+  return Unsupported(where, "TIFF", "libtiff (Debian: libtiff-dev)");
+}
+
 }  // namespace starfocus

@@ -5,13 +5,16 @@
 #include <tiffio.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 
+#include "platform/decoders/deep.h"
 #include "platform/decoders/limits.h"
 #include "platform/decoders/numbers.h"
+#include "platform/deep_image.h"
 
 namespace starfocus {
 namespace {
@@ -83,7 +86,8 @@ struct Layout {
   uint32_t width = 0, height = 0;
   uint16_t samples = 1, bits = 1, format = SAMPLEFORMAT_UINT;
   uint16_t photometric = PHOTOMETRIC_MINISBLACK, orientation = ORIENTATION_TOPLEFT;
-  uint16_t compression = COMPRESSION_NONE;
+  uint16_t compression = COMPRESSION_NONE, planes = PLANARCONFIG_CONTIG;
+  uint16_t alpha = EXTRASAMPLE_UNSPECIFIED;  // meaning of the first sample beyond the colours
   bool is_tiled = false;
 
   explicit Layout(TIFF* tiff) : is_tiled(TIFFIsTiled(tiff) != 0) {
@@ -95,6 +99,11 @@ struct Layout {
     TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
     TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION, &orientation);
     TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &compression);
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_PLANARCONFIG, &planes);
+    uint16_t extras = 0;
+    uint16_t* meanings = nullptr;
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_EXTRASAMPLES, &extras, &meanings);
+    if (extras > 0) alpha = meanings[0];
   }
 
   // Type of the samples in memory, after libtiff has swapped their bytes. The type is not supported
@@ -124,24 +133,15 @@ std::string DescribeType(const Layout& layout) {
   return std::to_string(layout.bits) + type;
 }
 
-// Returns an error unless the program reads pictures of this layout.
-Error CheckLayout(const std::string& where, bool is_matte, const Layout& layout) {
-  const auto reject = [&where, is_matte](const std::string& expected, const std::string& found) {
-    return Expected(where, expected,
-                    found + (is_matte ? " (convert the matte to PNG)"
-                                      : " (convert the map to PFM or NPY, or to PNG of 16 bits)"));
+// Returns an error unless the program reads strips of this layout. `advice` states how to convert
+// the file.
+Error CheckStrips(const std::string& where, const std::string& advice, const Layout& layout) {
+  const auto reject = [&](const std::string& expected, const std::string& found) {
+    return Expected(where, expected, found + advice);
   };
   constexpr uint16_t kCompressions[] = {COMPRESSION_NONE, COMPRESSION_LZW,
                                         COMPRESSION_ADOBE_DEFLATE, COMPRESSION_DEFLATE,
                                         COMPRESSION_PACKBITS};
-  if (layout.samples != 1 || layout.photometric != PHOTOMETRIC_MINISBLACK) {
-    return reject("a TIFF of one value for each pixel, white as the largest value",
-                  DescribeMeaning(layout));
-  }
-  if (!CanReadNumbers(layout.type())) {
-    return reject("a TIFF of integers of 8, 16, 32 or 64 bits, or floats of 16, 32 or 64 bits",
-                  DescribeType(layout));
-  }
   if (layout.is_tiled) return reject("a TIFF of strips", "tiles");
   if (layout.orientation != ORIENTATION_TOPLEFT) {
     return reject("a TIFF of orientation 1", std::to_string(layout.orientation));
@@ -154,15 +154,139 @@ Error CheckLayout(const std::string& where, bool is_matte, const Layout& layout)
   return {};
 }
 
+// Returns an error unless the program reads depth maps or mattes of this layout.
+Error CheckLayout(const std::string& where, bool is_matte, const Layout& layout) {
+  const std::string advice = is_matte ? " (convert the matte to PNG)"
+                                      : " (convert the map to PFM or NPY, or to PNG of 16 bits)";
+  if (layout.samples != 1 || layout.photometric != PHOTOMETRIC_MINISBLACK) {
+    return Expected(where, "a TIFF of one value for each pixel, white as the largest value",
+                    DescribeMeaning(layout) + advice);
+  }
+  if (!CanReadNumbers(layout.type())) {
+    return Expected(where,
+                    "a TIFF of integers of 8, 16, 32 or 64 bits, or floats of 16, 32 or 64 bits",
+                    DescribeType(layout) + advice);
+  }
+  return CheckStrips(where, advice, layout);
+}
+
+// Number of samples of the colours of a pixel, 1 or 3, or 0 for a layout that is no picture.
+int ColoursOf(const Layout& layout) {
+  const bool is_rgb = layout.photometric == PHOTOMETRIC_RGB;
+  if (!is_rgb && layout.photometric != PHOTOMETRIC_MINISBLACK) return 0;
+  const int colours = is_rgb ? 3 : 1;
+  return layout.samples >= colours && layout.samples <= colours + 4 ? colours : 0;
+}
+
+// Returns an error unless the program reads pictures of this layout.
+Error CheckPictureLayout(const std::string& where, TIFF* tiff, const Layout& layout) {
+  const std::string advice = " (convert it to PNG, for example with ImageMagick)";
+  uint32_t kind = 0;
+  uint8_t* version = nullptr;
+  TIFFGetField(tiff, TIFFTAG_SUBFILETYPE, &kind);
+  if ((kind & FILETYPE_REDUCEDIMAGE) != 0 ||
+      TIFFGetField(tiff, TIFFTAG_DNGVERSION, &version) == 1) {
+    return Expected(where, "a TIFF picture", "a raw file" + advice);
+  }
+  if (ColoursOf(layout) == 0 || layout.planes != PLANARCONFIG_CONTIG) {
+    return Expected(where, "a TIFF picture of interleaved RGB or grey",
+                    std::to_string(layout.samples) + " samples of photometric interpretation " +
+                        std::to_string(layout.photometric) + advice);
+  }
+  const NumberType type = layout.type();
+  const bool is_float = type.kind == NumberKind::kFloat;
+  if (type.kind == NumberKind::kSigned || (type.bytes != 2 && type.bytes != (is_float ? 4 : 1))) {
+    return Expected(where, "a TIFF of integers of 8 or 16 bits, or floats of 16 or 32 bits",
+                    DescribeType(layout) + advice);
+  }
+  return CheckStrips(where, advice, layout);
+}
+
 // Returns true if the file can contain the pixels. An LZW code of 12 bits expands to at most 4096
 // bytes, and other compressions expand less.
 bool CanHold(const Bytes& tiff, const Layout& layout) {
   constexpr uint64_t kMostExpansion = 4096;
-  return uint64_t{layout.width} * layout.height * (layout.bits / 8U) / kMostExpansion <=
-         tiff.size();
+  const uint64_t pixel = uint64_t{layout.samples} * (layout.bits / 8U);
+  return uint64_t{layout.width} * layout.height * pixel / kMostExpansion <= tiff.size();
+}
+
+// Converts a pixel of floats to half floats that are multiplied with alpha.
+void StoreHalf(const float* values, float alpha, bool is_straight, size_t channels, uint16_t* to) {
+  for (size_t c = 0; c < 3; ++c) {
+    const float light = values[c] * (is_straight ? alpha : 1);
+    to[c] = HalfOfFloat(std::isnan(light) ? 0 : std::clamp(light, -kLargestHalf, kLargestHalf));
+  }
+  if (channels == 4) to[3] = HalfOfFloat(alpha);
+}
+
+// Converts a row of numbers, as ReadNumbers returns them.
+void StoreRow(const Layout& layout, const float* values, DeepImage* deep, uint16_t* to) {
+  const auto colours = static_cast<size_t>(ColoursOf(layout)),
+             channels = static_cast<size_t>(deep->channels);
+  const float scale = layout.bits == 8 ? 257.0F : 1.0F;
+  for (uint32_t x = 0; x < layout.width; ++x, values += layout.samples, to += channels) {
+    const float pixel[] = {values[0], values[colours / 2], values[colours - 1],
+                           channels == 4 ? values[colours] : 1.0F};
+    if (deep->is_half) {
+      const float alpha = std::isnan(pixel[3]) ? 0 : std::clamp(pixel[3], 0.0F, 1.0F);
+      StoreHalf(pixel, alpha, layout.alpha == EXTRASAMPLE_UNASSALPHA, channels, to);
+    } else {
+      for (size_t c = 0; c < channels; ++c) to[c] = static_cast<uint16_t>(pixel[c] * scale);
+    }
+  }
+}
+
+Metadata ReadTiffMetadata(TIFF* tiff) {
+  Metadata metadata;
+  uint32_t size = 0;
+  void* data = nullptr;
+  if (TIFFGetField(tiff, TIFFTAG_ICCPROFILE, &size, &data) == 1) {
+    metadata.icc.assign(static_cast<uint8_t*>(data), static_cast<uint8_t*>(data) + size);
+  }
+  if (TIFFGetField(tiff, TIFFTAG_XMLPACKET, &size, &data) == 1) {
+    metadata.xmp.assign(static_cast<char*>(data), size);
+  }
+  return metadata;
 }
 
 }  // namespace
+
+Result<DecodedPicture> DecodeTiffPicture(const std::string& where, const Bytes& bytes) {
+  Source source = {bytes};
+  const auto damaged = [&] {
+    return Expected(where, "an undamaged TIFF file", "a damaged one (" + source.problem + ")");
+  };
+  const Tiff tiff = Open(&source);
+  if (tiff == nullptr) return damaged();
+  const Layout layout(tiff.get());
+  if (Error error = CheckPictureLayout(where, tiff.get(), layout)) return error;
+  if (Error error = CheckPictureSize(where, layout.width, layout.height)) return error;
+  if (!CanHold(bytes, layout)) {
+    source.problem = "it is too small for its pixels";
+    return damaged();
+  }
+  const bool has_alpha =
+      layout.samples > ColoursOf(layout) && layout.alpha != EXTRASAMPLE_UNSPECIFIED;
+  DecodedPicture picture;
+  picture.deep =
+      DeepImage(static_cast<int>(layout.width), static_cast<int>(layout.height), has_alpha ? 4 : 3);
+  DeepImage& deep = *picture.deep;
+  const NumberType type = layout.type();
+  deep.is_half = type.kind == NumberKind::kFloat;
+  const size_t count = size_t{layout.width} * layout.samples;
+  std::vector<uint8_t> row(
+      std::max(static_cast<size_t>(TIFFScanlineSize(tiff.get())), count * type.bytes));
+  std::vector<float> values(count);
+  for (uint32_t y = 0; y < layout.height; ++y) {
+    if (TIFFReadScanline(tiff.get(), row.data(), y, 0) != 1) return damaged();
+    ReadNumbers(type, row.data(), count, values.data());
+    StoreRow(layout, values.data(), &deep, deep.row(static_cast<int>(y)));
+  }
+  if (has_alpha && !deep.is_half && layout.alpha == EXTRASAMPLE_ASSOCALPHA) DivideByAlpha(&deep);
+  picture.metadata = ReadTiffMetadata(tiff.get());
+  CompleteDeep(layout.bits, &picture);
+  return picture;
+}
 
 Result<Samples> DecodeTiff(const std::string& where, bool is_matte, const Bytes& bytes) {
   Source source = {bytes};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <optional>
+#include <string>
 
 #include "platform/container.h"
 #include "platform/readers/heic.h"
@@ -12,8 +13,9 @@ namespace starfocus {
 namespace {
 
 // 3 bytes for the picture and 4 for its map in the helper process, the same again in the program,
-// and 2 for the planes of a decoder.
-constexpr uint64_t kBytesPerPixel = 16;
+// and 2 for the planes of a decoder. Files that may have more than 8 bits or alpha take 8 bytes
+// more in each process.
+constexpr uint64_t kBytesPerPixel = 16, kDeepBytesPerPixel = 32;
 constexpr uint64_t kUnknown = UINT64_MAX;
 
 bool HasAt(Span file, size_t at, const char* text) {
@@ -68,6 +70,54 @@ uint64_t WebpPixels(Span file) {
   return (Little(file, 26, 2) & 0x3fff) * (Little(file, 28, 2) & 0x3fff);
 }
 
+// Returns the pixels of the display window of an OpenEXR file, which is in the header of its first
+// part.
+uint64_t ExrPixels(Span file) {
+  constexpr size_t kSearched = 65536;
+  const std::string name("displayWindow\0box2i\0\20\0\0\0", 24);
+  const uint8_t* end = file.data + std::min(file.size, kSearched);
+  const uint8_t* found = std::search(file.data, end, name.begin(), name.end());
+  const auto at = static_cast<size_t>(found - file.data) + name.size();
+  if (file.size < 16 || at > file.size - 16) return kUnknown;
+  const auto side = [&](size_t first) {
+    const uint64_t low = Little(file, at + first, 4), high = Little(file, at + first + 8, 4);
+    return (high - low + 1) & 0xffffffff;
+  };
+  return side(0) * side(4);
+}
+
+// Returns the pixels of the first directory of a TIFF file (TIFF 6.0, section 2).
+uint64_t TiffPixels(Span file) {
+  const bool is_little = HasAt(file, 0, "II*");
+  const auto number = [&](size_t at, int bytes) {
+    uint64_t value = Little(file, at, bytes);
+    if (!is_little) {
+      value = 0;
+      for (int k = 0; k < bytes; ++k) value = value << 8 | file.data[at + static_cast<size_t>(k)];
+    }
+    return value;
+  };
+  if (file.size < 8) return kUnknown;
+  const auto directory = static_cast<size_t>(number(4, 4));
+  if (directory > file.size - 2) return kUnknown;
+  constexpr uint64_t kWidth = 256, kHeight = 257, kShort = 3;
+  uint64_t width = 0, height = 0;
+  const auto entries = static_cast<size_t>(number(directory, 2));
+  for (size_t k = 0, at = directory + 2; k < entries && at + 12 <= file.size; ++k, at += 12) {
+    const uint64_t tag = number(at, 2), value = number(at + 8, number(at + 2, 2) == kShort ? 2 : 4);
+    if (tag == kWidth) width = value;
+    if (tag == kHeight) height = value;
+  }
+  return width * height == 0 ? kUnknown : width * height;
+}
+
+// Returns the bytes for a pixel that files of this format may take.
+uint64_t BytesPerPixel(Span file) {
+  const bool is_deep = IsHeif(file) || HasAt(file, 1, "PNG\r\n") || HasAt(file, 0, "v/1\1") ||
+                       HasAt(file, 0, "II*") || HasAt(file, 0, "MM");
+  return is_deep ? kDeepBytesPerPixel : kBytesPerPixel;
+}
+
 uint64_t PixelsOf(Span file) {
   if (IsJpeg(file)) return JpegPixels(file);
   if (IsHeif(file)) return HeifPixels(file);
@@ -75,6 +125,8 @@ uint64_t PixelsOf(Span file) {
     return uint64_t{ReadBigEndian32(file.data + 16)} * ReadBigEndian32(file.data + 20);
   }
   if (HasAt(file, 0, "RIFF") && HasAt(file, 8, "WEBP")) return WebpPixels(file);
+  if (HasAt(file, 0, "v/1\1")) return ExrPixels(file);
+  if (HasAt(file, 0, "II*") || HasAt(file, 0, "MM")) return TiffPixels(file);
   // Each pixel of formats without compression takes at least one byte.
   for (const char* signature : {"P5", "P6", "Pf", "PF", "\x93NUMPY"}) {
     if (HasAt(file, 0, signature)) return file.size;
@@ -86,7 +138,8 @@ uint64_t PixelsOf(Span file) {
 
 uint64_t DecodingBytes(Span file) {
   const uint64_t pixels = PixelsOf(file);
-  return pixels < kUnknown / kBytesPerPixel ? pixels * kBytesPerPixel : kUnknown;
+  const uint64_t bytes = BytesPerPixel(file);
+  return pixels < kUnknown / bytes ? pixels * bytes : kUnknown;
 }
 
 }  // namespace starfocus

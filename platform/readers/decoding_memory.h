@@ -11,7 +11,8 @@
 namespace starfocus {
 
 // Returns an upper estimate of the bytes that a photo or depth picture takes while and after it is
-// decoded, together with a map of the same size: 16 bytes for each pixel that its header declares.
+// decoded, together with a map of the same size: 16 bytes for each pixel that its header declares,
+// or 32 bytes for formats of more than 8 bits.
 // Returns UINT64_MAX for formats whose header is not examined.
 uint64_t DecodingBytes(Span file);
 

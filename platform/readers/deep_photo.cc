@@ -36,14 +36,14 @@ void AddFacts(int bits, const ColourDescription& colours, const DeepImage& deep,
 
 }  // namespace
 
-void TakePicture(int bits, DecodedPicture picture, DepthPhoto* photo) {
+void TakePicture(DecodedPicture picture, DepthPhoto* photo) {
   photo->picture = std::move(picture.image);
   photo->metadata = std::move(picture.metadata);
   photo->deep = std::move(picture.deep);
   if (!photo->deep) return;
   const DeepImage& deep = *photo->deep;
   photo->deep_colours = photo->metadata.colours;
-  AddFacts(bits, photo->deep_colours, deep, &photo->facts);
+  AddFacts(picture.bits, photo->deep_colours, deep, &photo->facts);
   if (!deep.is_half && !IsHdr(deep.transfer)) return;
   const double largest = LargestLight(deep);
   photo->facts.emplace_back("headroom", Times(largest));

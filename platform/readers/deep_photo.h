@@ -10,10 +10,10 @@ namespace starfocus {
 
 // Moves the picture, its metadata and, if it has one, its DeepImage to a photo. Adds facts about
 // the DeepImage: bits, transfer, primaries, alpha, and the headroom, which is the brightest light
-// relative to white. `bits` is the number of bits of each sample in the file. If the 8-bit picture
+// relative to white. If the 8-bit picture
 // is a rendition in sRGB of brighter light, changes its metadata accordingly and adds a note about
 // clipped light. Call the function before ChooseProfile.
-void TakePicture(int bits, DecodedPicture picture, DepthPhoto* photo);
+void TakePicture(DecodedPicture picture, DepthPhoto* photo);
 
 }  // namespace starfocus
 

@@ -330,9 +330,8 @@ Result<DepthPhoto> DecodeExrPhoto(const std::string& where, const Bytes& bytes) 
   DepthPhoto photo;
   Result<DecodedPicture> picture = DecodeExr(where, bytes, &photo.notes);
   if (!picture) return picture.error();
-  constexpr int kHalfBits = 16;
   const bool is_transparent = picture->is_transparent;
-  TakePicture(kHalfBits, std::move(*picture), &photo);
+  TakePicture(std::move(*picture), &photo);
   NoteTransparency(is_transparent, &photo.notes);
   ChooseProfile(&photo);
   return photo;
@@ -349,8 +348,9 @@ Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool wi
   if (!picture) return picture.error();
   DepthPhoto photo;
   const bool is_transparent = picture->is_transparent;
-  TakePicture(SampleBitsOf(bytes), std::move(*picture), &photo);
-  NoteSampleBits(SampleBitsOf(bytes), &photo.notes);
+  const int bits = std::max(picture->bits, SampleBitsOf(bytes));
+  TakePicture(std::move(*picture), &photo);
+  NoteSampleBits(bits, &photo.notes);
   NoteTransparency(is_transparent, &photo.notes);
   ReadExif(&photo);
   ChooseProfile(&photo);

@@ -101,17 +101,6 @@ Result<Image> DecodePicture(const std::string& where, const heif_image_handle* h
   return image;
 }
 
-// Converts codes that are multiplied with alpha to straight codes.
-void DivideByAlpha(DeepImage* deep) {
-  for (size_t at = 0; at < deep->samples.size(); at += 4) {
-    uint16_t* pixel = &deep->samples[at];
-    const uint32_t alpha = pixel[3];
-    for (int c = 0; c < 3 && alpha > 0; ++c) {
-      pixel[c] = static_cast<uint16_t>(std::min(65535U, (pixel[c] * 65535U + alpha / 2) / alpha));
-    }
-  }
-}
-
 // Decodes a picture of more than 8 bits or with alpha to codes of 16 bits.
 Result<DeepImage> DecodeCodes(const std::string& where, const heif_image_handle* handle) {
   const bool is_wide = heif_image_handle_get_luma_bits_per_pixel(handle) > 8,
@@ -454,7 +443,7 @@ Result<DepthPhoto> Read(const std::string& where, Span file, Near near) {
   if (Error error = CheckSize(where, raw, file.size)) return error;
   Result<DecodedPicture> picture = DecodeBoth(where, raw);
   if (!picture) return picture.error();
-  TakePicture(heif_image_handle_get_luma_bits_per_pixel(raw), std::move(*picture), &photo);
+  TakePicture(std::move(*picture), &photo);
   ReadProfiles(raw, &photo);
   ReadCaptions(raw, &photo);
   photo.map_problem = ReadMap(where, raw, file.size, near, &photo).line();

@@ -12,10 +12,10 @@
 
 namespace starfocus {
 
-// Encodes codes of 16 bits as 10 bits, with alpha if the picture has it, by AV1 or HEVC. Writes the
-// code points of metadata.colours, otherwise the ICC profile, and EXIF edited to match the picture.
-// `quality` is from 1 to 100. Requires libheif with an encoder. `path` appears only in error
-// messages.
+// Encodes codes of 16 bits as 10 bits (AVIF by libheif before 1.16: 12 bits), with alpha if the
+// picture has it, by AV1 or HEVC. Writes the code points of metadata.colours, otherwise the ICC
+// profile, and EXIF edited to match the picture. `quality` is from 1 to 100. Requires libheif with
+// an encoder. `path` appears only in error messages.
 Result<Bytes> EncodeHeif(const std::string& path, const DeepImage& image, const Metadata& metadata,
                          int quality, bool is_avif);
 

@@ -15,7 +15,12 @@
 namespace starfocus {
 namespace {
 
-constexpr int kHeifBits = 10;
+// Returns the bits of a sample: 10. libheif 1.15 requests the wrong profile for 10 bits from libaom
+// 3.6, which then aborts the program (libheif issue 788), and encodes 12 bits correctly.
+int BitsOf(bool is_avif) {
+  constexpr uint32_t kVersion16 = 0x01100000;
+  return is_avif && heif_get_version_number() < kVersion16 ? 12 : 10;
+}
 
 template <class Type, void (*kFree)(Type*)>
 struct FreedHeif {
@@ -47,19 +52,19 @@ heif_compression_format FormatOf(bool is_avif) {
   return is_avif ? heif_compression_AV1 : heif_compression_HEVC;
 }
 
-// Copies the samples, rounded from 16 to 10 bits.
-heif_error TakeSamples(const DeepImage& image, heif_image* to) {
+// Copies the samples, rounded from 16 to `bits` bits.
+heif_error TakeSamples(const DeepImage& image, int bits, heif_image* to) {
   const heif_error failure =
-      heif_image_add_plane(to, heif_channel_interleaved, image.width, image.height, kHeifBits);
+      heif_image_add_plane(to, heif_channel_interleaved, image.width, image.height, bits);
   if (failure.code != heif_error_Ok) return failure;
   int stride = 0;
   uint8_t* rows = heif_image_get_plane(to, heif_channel_interleaved, &stride);
-  constexpr uint32_t kMost = (1 << kHeifBits) - 1;
+  const uint32_t most = (uint32_t{1} << bits) - 1;
   for (int y = 0; y < image.height; ++y) {
     const uint16_t* from = image.row(y);
     uint8_t* row = rows + size_t(y) * size_t(stride);
     for (size_t k = 0; k < image.row_samples(); ++k) {
-      const auto sample = static_cast<uint16_t>((from[k] * kMost + 32767) / 65535);
+      const auto sample = static_cast<uint16_t>((from[k] * most + 32767) / 65535);
       std::memcpy(row + 2 * k, &sample, sizeof(sample));
     }
   }
@@ -118,7 +123,7 @@ Result<Bytes> EncodeUnguarded(const std::string& path, const DeepImage& image,
   heif_image* raw_image = nullptr;
   failure = heif_image_create(image.width, image.height, heif_colorspace_RGB, chroma, &raw_image);
   const HeifImage pixels(raw_image);
-  if (failure.code == heif_error_Ok) failure = TakeSamples(image, raw_image);
+  if (failure.code == heif_error_Ok) failure = TakeSamples(image, BitsOf(is_avif), raw_image);
   if (failure.code != heif_error_Ok) return FailedToWrite(path, failure);
   const HeifNclx nclx = TakeColours(metadata, raw_image);
   const HeifOptions options(heif_encoding_options_alloc());

@@ -59,12 +59,14 @@ int64_t PixelsOfHeaders(const uint8_t* data, size_t size) {
   return pixels;
 }
 
-// Returns the number of pixels that the file declares. The program estimates the memory of a WebP
-// file, which has one picture, from the same header.
+// Returns the number of pixels that the file declares. The program estimates the memory of WebP,
+// OpenEXR and TIFF files from the same headers.
 int64_t DeclaredPixels(const uint8_t* data, size_t size) {
-  if (size >= 12 && std::memcmp(data, "RIFF", 4) == 0) {
+  for (const auto& [start, bytes_per_pixel] :
+       {std::pair("RIFF", 16U), {"v/1\1", 32U}, {"II*", 32U}, {"MM", 32U}}) {
+    if (size < 12 || std::memcmp(data, start, std::strlen(start)) != 0) continue;
     const uint64_t bytes = DecodingBytes({data, size});
-    return bytes == UINT64_MAX ? 0 : static_cast<int64_t>(bytes / 16);
+    return bytes == UINT64_MAX ? 0 : static_cast<int64_t>(bytes / bytes_per_pixel);
   }
   const auto items = HeifBrands({data, size}).empty() ? std::nullopt : ReadHeifItems({data, size});
   if (items) {
@@ -84,9 +86,10 @@ int64_t StatusOf(const std::string& name) {
   return -1;
 }
 
-// Limits the memory that reading a picture takes to 64 MiB plus 16 bytes for each pixel that the
-// file declares. Aborts if a reader exceeds the limit. Only Linux can measure the memory of each
-// input; other systems check nothing.
+// Limits the memory that reading a picture takes to 64 MiB plus 20 bytes for each pixel that the
+// file declares: 16 bits of RGB and alpha, twice while HEIF is decoded, and 3 bytes of the picture.
+// Aborts if a reader exceeds the limit. Only Linux can measure the memory of each input; other
+// systems check nothing.
 class MemoryBudget {
  public:
   MemoryBudget(const uint8_t* data, size_t size) : pixels_(DeclaredPixels(data, size)) {
@@ -94,7 +97,7 @@ class MemoryBudget {
     before_ = StatusOf("VmHWM:");
   }
   ~MemoryBudget() {
-    const int64_t most = kShare * (64 * 1024 + 16 * pixels_ / 1024),
+    const int64_t most = kShare * (64 * 1024 + 20 * pixels_ / 1024),
                   used = StatusOf("VmHWM:") - before_;
     if (before_ < 0 || used <= most) return;
     std::fprintf(stderr, "%lld KiB for %lld declared pixels, expected at most %lld\n",

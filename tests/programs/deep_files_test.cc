@@ -3,6 +3,7 @@
 // byte by byte; exrinfo and tiffinfo, if installed, read the files of the writers.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -511,6 +512,163 @@ TEST_CASE("writers: half floats become codes of a transfer, and a note counts cl
   CHECK(hdr.notes.empty());
   CHECK(hdr.picture.deep->transfer == kPq);
   CHECK(std::abs(hdr.picture.deep->samples[2] - 38055) <= 1);
+}
+
+// Entries of a TIFF directory, sorted by tag: a tag and its number.
+using Tags = std::vector<std::pair<uint32_t, uint32_t>>;
+
+// Returns a TIFF file of `width` x 1 pixels without compression.
+std::string Tiff(uint32_t width, uint32_t samples, uint32_t bits, const Tags& more,
+                 const std::string& strip) {
+  constexpr uint32_t kStripAt = 8, kLong = 4, kRgb = 2, kGrey = 1;
+  Tags tags = {{256, width},
+               {257, 1},
+               {258, bits},
+               {259, 1},
+               {262, samples < 3 ? kGrey : kRgb},
+               {273, kStripAt},
+               {277, samples},
+               {278, 1},
+               {279, uint32_t(strip.size())}};
+  for (const auto& [tag, value] : more) {
+    const auto same = std::find_if(tags.begin(), tags.end(),
+                                   [tag = tag](const auto& own) { return own.first == tag; });
+    if (same != tags.end()) tags.erase(same);
+    tags.emplace_back(tag, value);
+  }
+  std::sort(tags.begin(), tags.end());
+  std::string file = std::string("II*\0", 4) + Little(kStripAt + strip.size(), 4) + strip;
+  file += Little(tags.size(), 2);
+  for (const auto& [tag, value] : tags) {
+    file += Little(tag, 2) + Little(kLong, 2) + Little(1, 4) + Little(value, 4);
+  }
+  return file + Little(0, 4);
+}
+
+std::string LittleWords(const Words& words) {
+  std::string text;
+  for (const uint16_t word : words) text += Little(word, 2);
+  return text;
+}
+
+bool HasTiff() { return !CheckTiffEncoder("a.tif"); }
+
+TEST_CASE("TIFF: pictures of 8 and 16 bits and of floats are read, with alpha") {
+  if (!HasTiff()) return;
+  constexpr uint32_t kExtra = 338, kFormat = 339, kMultiplied = 1, kStraight = 2, kFloat = 3;
+  const Words codes = {0, 385, 65535, 386, 127, 129};
+  const std::vector<int> bytes = {0, 1, 255, 2, 0, 1};
+  CheckRows({
+      {"RGB of 16 bits", Tiff(2, 3, 16, {}, LittleWords(codes)), 3, kSrgb, codes, bytes},
+      {"RGB of 8 bits", Tiff(1, 3, 8, {}, "\1\2\3"), 0, kSrgb, {}, {1, 2, 3}},
+      {"grey of 16 bits",
+       Tiff(1, 1, 16, {}, LittleWords({700})),
+       3,
+       kSrgb,
+       {700, 700, 700},
+       {3, 3, 3}},
+      {"grey and alpha",
+       Tiff(1, 2, 16, {{kExtra, kStraight}}, LittleWords({700, 9})),
+       4,
+       kSrgb,
+       {700, 700, 700, 9},
+       {3, 3, 3}},
+      {"multiplied alpha",
+       Tiff(1, 4, 16, {{kExtra, kMultiplied}}, LittleWords({9, 90, 0, 180})),
+       4,
+       kSrgb,
+       {3277, 32768, 0, 180},
+       {13, 128, 0}},
+      {"a sample without meaning",
+       Tiff(1, 4, 16, {{kExtra, 0}}, LittleWords({9, 90, 0, 180})),
+       3,
+       kSrgb,
+       {9, 90, 0},
+       {0, 0, 0}},
+      {"alpha of 8 bits",
+       Tiff(1, 4, 8, {{kExtra, kStraight}}, "\1\2\3\4"),
+       4,
+       kSrgb,
+       {257, 514, 771, 1028},
+       {1, 2, 3}},
+  });
+  const std::string lights = LittleFloat(2) + LittleFloat(-0.5F) + LittleFloat(1e9F);
+  CHECK(LightsOf(Decode(Tiff(1, 3, 32, {{kFormat, kFloat}}, lights))) ==
+        std::vector<float>{2, -0.5F, 65504});
+  CHECK(LightsOf(Decode(Tiff(1, 4, 32, {{kExtra, kStraight}, {kFormat, kFloat}},
+                             lights + LittleFloat(0.25F)))) ==
+        std::vector<float>{0.5F, -0.125F, 65504, 0.25F});
+  CHECK(LightsOf(Decode(Tiff(1, 4, 16, {{kExtra, kMultiplied}, {kFormat, kFloat}},
+                             LittleWords({0x4000, 0x3c00, 0, 0x3800})))) ==
+        std::vector<float>{2, 1, 0, 0.5F});
+}
+
+TEST_CASE("TIFF: raw files, other layouts and small files of many pixels are rejected") {
+  if (!HasTiff()) return;
+  const std::string strip = LittleWords({1, 2, 3});
+  const std::vector<std::tuple<Tags, std::string>> rows = {
+      {{{254, 1}}, "found a raw file"},
+      {{{262, 6}}, "found 3 samples of photometric interpretation 6"},
+      {{{284, 2}}, "a TIFF picture of interleaved RGB or grey"},
+      {{{339, 2}}, "found 16-bit signed integers"},
+      {{{274, 6}}, "a TIFF of orientation 1, found 6"},
+      {{{259, 7}}, "found compression 7 (convert it to PNG"},
+      {{{256, 65536}}, "width and height from 1 to 65535"},
+      {{{256, 16384}, {257, 16384}}, "too small for its pixels"}};
+  for (const auto& [tags, error] : rows) {
+    CAPTURE(error);
+    CHECK(Contains(Decode(Tiff(1, 3, 16, tags, strip)), error));
+  }
+}
+
+TEST_CASE("writers: TIFF of 16 bits keeps all codes, alpha and profile, and tiffinfo reads it") {
+  if (!HasTiff()) return;
+  const bool asks = Has("tiffinfo");
+  if (!asks) MESSAGE("SKIPPED: tiffinfo is absent");
+  TempFolder folder;
+  DeepOptions options;
+  options.picture.metadata.icc = BytesOf(Profile(300));
+  for (const int channels : {3, 4}) {
+    const DeepImage image = DeepPattern(37, 90, channels);
+    const Written written = WriteAndRead(folder, "a.tif", image, options);
+    CHECK(written.picture.deep->samples == image.samples);
+    CHECK(written.picture.metadata.icc == options.picture.metadata.icc);
+    if (!asks) continue;
+    const std::string text = Ask(folder, "tiffinfo '" + folder.file("a.tif") + "'");
+    CHECK(Contains(text, "Bits/Sample: 16\n"));
+    CHECK(Contains(text, "Compression Scheme: AdobeDeflate\n"));
+    CHECK(Contains(text, "unassoc-alpha") == (channels == 4));
+  }
+}
+
+TEST_CASE("writers: AVIF and HEIC keep codes within their bits, alpha and code points") {
+  TempFolder folder;
+  for (const char* name : {"a.avif", "a.heic"}) {
+    if (CheckHeifEncoder(name, name[2] == 'a')) continue;
+    for (const int channels : {3, 4}) {
+      CAPTURE(name);
+      CAPTURE(channels);
+      DeepImage image(67, 34, channels);
+      for (size_t k = 0; k < image.samples.size(); ++k) {
+        const size_t c = k % size_t(channels), x = k / size_t(channels) % 67,
+                     y = k / image.row_samples();
+        image.samples[k] =
+            static_cast<uint16_t>(c == 3 ? 65535 - 200 * y : 20000 + 300 * x + 150 * y * c);
+      }
+      image.transfer = kPq;
+      DeepOptions options;
+      options.picture.metadata.colours = {"cICP", 9, 16};
+      const Written written = WriteAndRead(folder, name, image, options);
+      const DeepImage& deep = *written.picture.deep;
+      CHECK(std::tuple(deep.width, deep.height, deep.channels, deep.transfer) ==
+            std::tuple(67, 34, channels, kPq));
+      CHECK(written.picture.metadata.colours.primaries == 9);
+      // 8 codes of 10 bits: the default quality is 95.
+      for (size_t k = 0; k < image.samples.size(); ++k) {
+        if (std::abs(deep.samples[k] - image.samples[k]) > 8 * 64) FAIL_CHECK(k);
+      }
+    }
+  }
 }
 
 TEST_CASE("writers: refused names and transfers leave no file") {
