@@ -37,7 +37,7 @@ LICENCES = {
 PACKAGES = {
     "Highway": "libhwy-dev", "stb_image, stb_image_write": "libstb-dev", "libjpeg-turbo": "libjpeg62-turbo-dev",
     "libpng": "libpng-dev", "libdeflate": "libdeflate-dev", "libwebp": "libwebp-dev", "libsixel": "libsixel-dev",
-    "libtiff": "libtiff-dev", "libheif": "libheif-dev", "libexif": "libexif-dev", "Expat": "libexpat1-dev",
+    "libtiff": "libtiff-dev", "OpenEXR": "libopenexr-dev", "libheif": "libheif-dev", "libexif": "libexif-dev", "Expat": "libexpat1-dev",
     "libseccomp": "libseccomp-dev", "CLI11": "libcli11-dev", "nlohmann-json": "nlohmann-json3-dev",
     "libgpiod": "libgpiod-dev",
     "doctest": "doctest-dev", "Google Benchmark": "libbenchmark-dev",
