@@ -326,14 +326,25 @@ Error FindMatte(const std::string& path, const DepthOptions& options, const Phot
   return CheckOptions(where, options, depth, !files.matte.empty());
 }
 
-Result<DepthPhoto> DecodeExrPhoto(const std::string& where, const Bytes& bytes) {
+// Decodes the colours of an OpenEXR file and, if `with_map` is true, its channel Z, whose distances
+// have no unit.
+Result<DepthPhoto> DecodeExrPhoto(const std::string& where, const Bytes& bytes, bool with_map) {
   DepthPhoto photo;
+  photo.format = "OpenEXR picture with depth";
   Result<DecodedPicture> picture = DecodeExr(where, bytes, &photo.notes);
   if (!picture) return picture.error();
   const bool is_transparent = picture->is_transparent;
   TakePicture(std::move(*picture), &photo);
   NoteTransparency(is_transparent, &photo.notes);
   ChooseProfile(&photo);
+  if (!with_map || !HasExrDistances(bytes)) return photo;
+  Result<Samples> distances = DecodeExrSamples(where, false, bytes);
+  photo.map_problem = distances.error().line();
+  if (!distances) return photo;
+  photo.map = std::move(distances->map);
+  Invert(&photo.map);
+  photo.meaning = MapMeaning::kInverse;
+  TellMap("distances of the channel Z, correct up to a factor", &photo);
   return photo;
 }
 
@@ -343,7 +354,7 @@ Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool wi
   if (IsHeif(file)) return ReadHeif(where, file, near);
   if (IsJpeg(file)) return DecodeJpegPhoto(where, file, with_map, near);
   const Bytes bytes(file.data, file.data + file.size);
-  if (IsExr(bytes)) return DecodeExrPhoto(where, bytes);
+  if (IsExr(bytes)) return DecodeExrPhoto(where, bytes, with_map);
   Result<DecodedPicture> picture = DecodeImage(where, bytes);
   if (!picture) return picture.error();
   DepthPhoto photo;

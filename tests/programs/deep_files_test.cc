@@ -18,6 +18,7 @@
 #include "platform/depth_file.h"
 #include "platform/image_io.h"
 #include "platform/readers/depth_photo_file.h"
+#include "platform/readers/orientation.h"
 #include "platform/writers/deep_picture.h"
 #include "platform/writers/exr.h"
 #include "platform/writers/heif.h"
@@ -312,6 +313,78 @@ TEST_CASE("OpenEXR: the first picture that is no right view is read, and a note 
     CHECK(Contains(notes, note));
     CHECK(Contains(notes, "pictures") == !note.empty());
     CHECK(Contains(notes, "light brighter than white"));
+  }
+}
+
+using FactList = std::vector<std::pair<std::string, std::string>>;
+
+Result<DepthPhoto> ReadPhoto(const std::string& file) {
+  const Bytes bytes = BytesOf(file);
+  return DecodeDepthPhoto("photo", {bytes.data(), bytes.size()}, true, Near::kUnknown);
+}
+
+TEST_CASE("OpenEXR: the channel Z is the depth of the picture in the same file") {
+  if (!HasExr()) return;
+  const float infinity = std::numeric_limits<float>::infinity();
+  Part part = Colours(1);
+  part.channels.push_back({"Z", false, {4, -1}});
+  part.display = {0, 0, 2, 0};
+  const Result<DepthPhoto> photo = ReadPhoto(Exr({part}));
+  REQUIRE(photo == "");
+  CHECK(photo->format == "OpenEXR picture with depth");
+  CHECK(photo->meaning == MapMeaning::kInverse);
+  REQUIRE(photo->map.values.size() == 3);
+  CHECK(photo->map.values[0] == 1 / 4.0F);
+  CHECK(std::isnan(photo->map.values[1]));
+  CHECK(photo->map.values[2] == 1 / infinity);
+  CHECK(ReadPhoto(Exr({Colours(1)}))->map.values.empty());
+}
+
+TEST_CASE("facts: bits, transfer, primaries, alpha and headroom describe pictures of 16 bits") {
+  const auto facts = [](const std::string& file) {
+    const Result<DepthPhoto> photo = ReadPhoto(file);
+    REQUIRE(photo == "");
+    return photo->facts;
+  };
+  constexpr int kRgb = 2, kRgba = 6;
+  if (HasLibpng()) {
+    CHECK(facts(Png(1, 1, {8, kRgb}, "\1\2\3", 3)).empty());
+    CHECK(facts(Png(1, 1, {8, kRgba}, "\1\2\3\4", 4)) == FactList{{"samples", "8 bits, integers"},
+                                                                  {"transfer", "sRGB"},
+                                                                  {"primaries", "BT.709"},
+                                                                  {"alpha", "not premultiplied"}});
+    const FactList pq = facts(Png(1, 1, {16, kRgb, Cicp(9, 16)}, Samples16({47785, 0, 9}), 6));
+    CHECK(FactList(pq.begin(), pq.begin() + 4) == FactList{{"samples", "16 bits, integers"},
+                                                           {"transfer", "PQ, white at 203 cd/m2"},
+                                                           {"primaries", "BT.2020"},
+                                                           {"headroom", "4 times white"}});
+  }
+  if (!HasExr()) return;
+  Part part = Colours(6.5F);
+  part.channels.insert(part.channels.begin(), {"A", true, {0.5F, 1}});
+  CHECK(facts(Exr({part})) == FactList{{"samples", "16 bits, floats"},
+                                       {"transfer", "linear light"},
+                                       {"primaries", "BT.709"},
+                                       {"alpha", "premultiplied"},
+                                       {"headroom", "6.5 times white"}});
+}
+
+TEST_CASE("orientation: the picture of 16 bits turns with the picture of 8 bits") {
+  if (!HasExr()) return;
+  for (int orientation = 2; orientation <= 8; ++orientation) {
+    CAPTURE(orientation);
+    Part part = {{}, {0, 0, 2, 1}, {0, 0, 2, 1}};
+    for (const char* name : {"A", "B", "G", "R"}) {
+      part.channels.push_back({name, true, {0.5F, 0.25F, 0.125F, 1, 0.75F, 0}});
+    }
+    DepthPhoto photo = *ReadPhoto(Exr({part}));
+    photo.orientation = orientation;
+    ApplyOrientation(&photo);
+    const DeepImage& deep = *photo.deep;
+    CHECK(std::tuple(deep.width, deep.height, deep.channels, deep.is_half) ==
+          std::tuple(photo.picture.width, photo.picture.height, 4, true));
+    CHECK(ToImage(deep).pixels == photo.picture.pixels);
+    CHECK(deep.samples[3] == deep.samples[0]);
   }
 }
 

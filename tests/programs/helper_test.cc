@@ -18,8 +18,10 @@
 #include <cstdlib>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <thread>
 #include <tuple>
+#include <utility>
 
 #include "platform/clock.h"
 #include "platform/helper/decoder_threads.h"
@@ -74,6 +76,38 @@ TEST_CASE("helper: the result of a decoder arrives unchanged") {
       Confined<bool>("map", [&] { return Result<bool>(Expected("map", "a", "b")); });
   CHECK(failed.error().line() == "map: expected a, found b");
   CHECK(failed.error().kind() == ErrorKind::kInput);
+}
+
+TEST_CASE("helper: a picture of 16 bits arrives unchanged, and wrong properties are rejected") {
+  if (!HasHelpers()) return;
+  using Deep = std::optional<DeepImage>;
+  const auto send = [](Deep deep) {
+    Deep received = DeepImage(1, 1, 3);
+    const Error error = RunHelper(
+        "photo.exr", kLimits, [] {},
+        [&](Channel* channel) {
+          Pass(channel, channel->direction() == Direction::kSend ? &deep : &received);
+        });
+    return std::pair(error.line(), received);
+  };
+  DeepImage image(700, 300, 4);
+  for (size_t k = 0; k < image.samples.size(); ++k) image.samples[k] = static_cast<uint16_t>(k);
+  image.is_half = true;
+  image.transfer = STARFOCUS_TRANSFER_HLG;
+  const auto [error, received] = send(image);
+  CHECK(error.empty());
+  REQUIRE(received);
+  CHECK(std::tuple(received->width, received->height, received->channels, received->is_half,
+                   received->transfer) == std::tuple(700, 300, 4, true, STARFOCUS_TRANSFER_HLG));
+  CHECK(received->samples == image.samples);
+  CHECK_FALSE(send({}).second);
+  for (const int channels : {-1, 2, 5}) {
+    image.channels = channels;
+    CHECK(!send(image).first.empty());
+  }
+  image.channels = 4;
+  image.transfer = 4;
+  CHECK(!send(image).first.empty());
 }
 
 TEST_CASE("helper: files, networks, programs and other processes are out of reach") {
