@@ -24,6 +24,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "platform/decoders/exr_header.h"
 #include "platform/decoders/limits.h"
 #include "platform/deep_image.h"
 
@@ -54,7 +55,11 @@ class ExrInput : public Imf::IStream {
 
 // Returns the result of `decode`, which calls functions of OpenEXR that throw exceptions.
 template <class T, class Decode>
-Result<T> CatchExr(const std::string& where, Decode decode) {
+Result<T> CatchExr(const std::string& where, const Bytes& exr, Decode decode) {
+  if (!VisitExrAttributes(exr.data(), exr.size(),
+                          [](const std::string&, const uint8_t*, size_t) {})) {
+    return Expected(where, "an undamaged OpenEXR file", "a damaged one (its header)");
+  }
   try {
     return decode();
   } catch (const std::bad_alloc&) {
@@ -404,15 +409,15 @@ Result<Samples> DecodeChannel(const std::string& where, bool is_matte, const Byt
 
 Result<DecodedPicture> DecodeExr(const std::string& where, const Bytes& exr,
                                  std::vector<std::string>* notes) {
-  return CatchExr<DecodedPicture>(where, [&] { return DecodeColours(where, exr, notes); });
+  return CatchExr<DecodedPicture>(where, exr, [&] { return DecodeColours(where, exr, notes); });
 }
 
 Result<Samples> DecodeExrSamples(const std::string& where, bool is_matte, const Bytes& exr) {
-  return CatchExr<Samples>(where, [&] { return DecodeChannel(where, is_matte, exr); });
+  return CatchExr<Samples>(where, exr, [&] { return DecodeChannel(where, is_matte, exr); });
 }
 
 bool HasExrDistances(const Bytes& exr) {
-  const Result<bool> found = CatchExr<bool>("", [&]() -> Result<bool> {
+  const Result<bool> found = CatchExr<bool>("", exr, [&]() -> Result<bool> {
     ExrInput stream(exr);
     const Imf::MultiPartInputFile file(stream, 0, false);
     const std::vector<ExrChannel> channels = ListChannels(file);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "platform/container.h"
+#include "platform/decoders/exr_header.h"
 #include "platform/readers/heic.h"
 
 namespace starfocus {
@@ -70,20 +71,19 @@ uint64_t WebpPixels(Span file) {
   return (Little(file, 26, 2) & 0x3fff) * (Little(file, 28, 2) & 0x3fff);
 }
 
-// Returns the pixels of the display window of an OpenEXR file, which is in the header of its first
-// part.
+// Returns the pixels of the largest display window of the parts of an OpenEXR file.
 uint64_t ExrPixels(Span file) {
-  constexpr size_t kSearched = 65536;
-  const std::string name("displayWindow\0box2i\0\20\0\0\0", 24);
-  const uint8_t* end = file.data + std::min(file.size, kSearched);
-  const uint8_t* found = std::search(file.data, end, name.begin(), name.end());
-  const auto at = static_cast<size_t>(found - file.data) + name.size();
-  if (file.size < 16 || at > file.size - 16) return kUnknown;
-  const auto side = [&](size_t first) {
-    const uint64_t low = Little(file, at + first, 4), high = Little(file, at + first + 8, 4);
-    return (high - low + 1) & 0xffffffff;
-  };
-  return side(0) * side(4);
+  uint64_t most = 0;
+  const bool is_whole = VisitExrAttributes(
+      file.data, file.size, [&](const std::string& name, const uint8_t* value, size_t size) {
+        if (name != "displayWindow" || size != 16) return;
+        const auto side = [value](size_t first) {  // from the first and the last coordinate
+          const Span box = {value, 16};
+          return (Little(box, first + 8, 4) - Little(box, first, 4) + 1) & 0xffffffff;
+        };
+        most = std::max(most, side(0) * side(4));
+      });
+  return is_whole && most > 0 ? most : kUnknown;
 }
 
 // Returns the pixels of the first directory of a TIFF file (TIFF 6.0, section 2).
