@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests files of pictures with more than 8 bits or alpha. The tests write PNG and OpenEXR files
+// Tests files of pictures with more than 8 bits or alpha. The tests write PNG and TIFF files
 // byte by byte; exrinfo and tiffinfo, if installed, read the files of the writers.
 #include <doctest/doctest.h>
 
@@ -24,6 +24,7 @@
 #include "platform/writers/heif.h"
 #include "platform/writers/tiff.h"
 #include "tests/support/error_line.h"
+#include "tests/support/exr_file.h"
 #include "tests/support/photo_files.h"
 #include "tests/support/temp_folder.h"
 
@@ -31,6 +32,7 @@ namespace starfocus::deep_files_test {
 namespace {
 
 using namespace photos;
+using namespace exr_file;
 
 constexpr int32_t kSrgb = STARFOCUS_TRANSFER_SRGB, kLinear = STARFOCUS_TRANSFER_NONE,
                   kPq = STARFOCUS_TRANSFER_PQ, kHlg = STARFOCUS_TRANSFER_HLG;
@@ -54,6 +56,26 @@ std::string Samples16(const Words& words) {
 std::string Cicp(int primaries, int transfer) {
   return Chunk("cICP",
                Big(uint32_t(primaries), 1) + Big(uint32_t(transfer), 1) + std::string("\0\1", 2));
+}
+
+std::vector<float> LightsOf(const DeepImage& deep) {
+  std::vector<float> lights;
+  for (const uint16_t sample : deep.samples) lights.push_back(FloatOfHalf(sample));
+  return lights;
+}
+
+std::vector<float> LightsOf(const Result<DecodedPicture>& picture) {
+  REQUIRE(picture == "");
+  REQUIRE(picture->deep);
+  CHECK(picture->deep->is_half);
+  return LightsOf(*picture->deep);
+}
+
+using FactList = std::vector<std::pair<std::string, std::string>>;
+
+Result<DepthPhoto> ReadPhoto(const std::string& file) {
+  const Bytes bytes = BytesOf(file);
+  return DecodeDepthPhoto("photo", {bytes.data(), bytes.size()}, true, Near::kUnknown);
 }
 
 struct DeepRow {
@@ -146,200 +168,6 @@ TEST_CASE("PNG: 16 bits and alpha are read as codes of 16 bits beside the pictur
   });
 }
 
-std::string Little(uint64_t value, int bytes) {
-  std::string text;
-  for (int k = 0; k < bytes; ++k) text += static_cast<char>(value >> 8 * k);
-  return text;
-}
-
-std::string LittleFloat(float value) {
-  uint32_t bits = 0;
-  std::memcpy(&bits, &value, sizeof(bits));
-  return Little(bits, 4);
-}
-
-// A channel of an OpenEXR file. `values` are its samples in rows.
-struct Channel {
-  std::string name;
-  bool is_half;
-  std::vector<float> values;
-};
-
-struct Box {
-  int left, top, right, bottom;
-};
-
-std::string Attribute(const std::string& name, const std::string& type, const std::string& value) {
-  return name + '\0' + type + '\0' + Little(value.size(), 4) + value;
-}
-
-std::string BoxText(const Box& box) {
-  std::string text;
-  for (const int side : {box.left, box.top, box.right, box.bottom}) {
-    text += Little(static_cast<uint32_t>(side), 4);
-  }
-  return text;
-}
-
-struct Part {
-  std::vector<Channel> channels;  // sorted by name
-  Box data, display;
-  std::string more = {};
-};
-
-std::string HeaderOf(const Part& part) {
-  std::string list;
-  for (const Channel& channel : part.channels) {
-    list += channel.name + '\0' + Little(channel.is_half ? 1 : 2, 4) + std::string(4, '\0') +
-            Little(1, 4) + Little(1, 4);
-  }
-  const std::string zero = std::string(1, '\0'), one = LittleFloat(1);
-  return Attribute("channels", "chlist", list + zero) +
-         Attribute("compression", "compression", zero) +
-         Attribute("dataWindow", "box2i", BoxText(part.data)) +
-         Attribute("displayWindow", "box2i", BoxText(part.display)) +
-         Attribute("lineOrder", "lineOrder", zero) + Attribute("pixelAspectRatio", "float", one) +
-         Attribute("screenWindowCenter", "v2f", std::string(8, '\0')) +
-         Attribute("screenWindowWidth", "float", one) + part.more + zero;
-}
-
-// Returns an OpenEXR file without compression ("OpenEXR File Layout").
-std::string Exr(const std::vector<Part>& parts) {
-  const bool multi = parts.size() > 1;
-  std::string file = "v/1\1" + Little(multi ? 0x1002 : 2, 4);
-  size_t rows = 0;
-  for (const Part& part : parts) {
-    file += HeaderOf(part);
-    rows += size_t(part.data.bottom - part.data.top + 1);
-  }
-  if (multi) file += '\0';
-  const size_t first = file.size() + 8 * rows;
-  std::string table, chunks;
-  for (size_t number = 0; number < parts.size(); ++number) {
-    const Part& part = parts[number];
-    const auto width = size_t(part.data.right - part.data.left + 1);
-    for (int y = part.data.top; y <= part.data.bottom; ++y) {
-      std::string samples;
-      for (const Channel& channel : part.channels) {
-        for (size_t x = 0; x < width; ++x) {
-          const float value = channel.values.at(size_t(y - part.data.top) * width + x);
-          samples += channel.is_half ? Little(HalfOfFloat(value), 2) : LittleFloat(value);
-        }
-      }
-      table += Little(first + chunks.size(), 8);
-      if (multi) chunks += Little(number, 4);
-      chunks += Little(uint32_t(y), 4) + Little(samples.size(), 4) + samples;
-    }
-  }
-  return file + table + chunks;
-}
-
-// Attributes that a part of a file of several parts has.
-std::string Named(const std::string& name, int rows) {
-  return Attribute("chunkCount", "int", Little(uint32_t(rows), 4)) +
-         Attribute("name", "string", name) + Attribute("type", "string", "scanlineimage");
-}
-
-const Box kTwo = {0, 0, 1, 0};  // two pixels in a row
-
-Part Colours(float red, const std::string& more = {}) {
-  return {
-      {{"B", true, {3, 0.5F}}, {"G", true, {-1, 0.25F}}, {"R", false, {red, 0}}}, kTwo, kTwo, more};
-}
-
-std::vector<float> LightsOf(const DeepImage& deep) {
-  std::vector<float> lights;
-  for (const uint16_t sample : deep.samples) lights.push_back(FloatOfHalf(sample));
-  return lights;
-}
-
-std::vector<float> LightsOf(const Result<DecodedPicture>& picture) {
-  REQUIRE(picture == "");
-  REQUIRE(picture->deep);
-  CHECK(picture->deep->is_half);
-  return LightsOf(*picture->deep);
-}
-
-TEST_CASE("OpenEXR: colours of the display window are read as half floats") {
-  if (!HasExr()) return;
-  const Result<DecodedPicture> plain = Decode(Exr({Colours(2)}));
-  CHECK(LightsOf(plain) == std::vector<float>{2, -1, 3, 0, 0.25F, 0.5F});
-  // Codes of sRGB for 0.25 and 0.5.
-  CHECK(std::vector<int>(plain->image.pixels.begin(), plain->image.pixels.end()) ==
-        std::vector<int>{255, 0, 255, 0, 137, 188});
-  CHECK_FALSE(plain->is_transparent);
-  // Premultiplied colours; the display window is larger than the data window on three sides, and
-  // smaller on one side.
-  const Part windowed = {{{"A", true, {0.5F, 1, 1, 1}},
-                          {"B", true, {1, 2, 3, 4}},
-                          {"G", true, {5, 6, 7, 8}},
-                          {"R", true, {9, 10, 11, 12}}},
-                         {-1, 7, 0, 8},
-                         {0, 6, 1, 9}};
-  const Result<DecodedPicture> part = Decode(Exr({windowed}));
-  CHECK(LightsOf(part) == std::vector<float>{0,  0, 0, 0, 0, 0, 0, 0, 10, 6, 2, 1, 0, 0, 0, 0,
-                                             12, 8, 4, 1, 0, 0, 0, 0, 0,  0, 0, 0, 0, 0, 0, 0});
-  CHECK(part->is_transparent);
-  const Part grey = {{{"A", true, {1, 0.5F}}, {"Y", true, {2, 0.25F}}}, kTwo, kTwo};
-  CHECK(LightsOf(Decode(Exr({grey}))) == std::vector<float>{2, 2, 2, 1, 0.25F, 0.25F, 0.25F, 0.5F});
-}
-
-TEST_CASE("OpenEXR: the first picture that is no right view is read, and a note names it") {
-  if (!HasExr()) return;
-  const Part distances = {{{"Z", false, {4, 5}}}, kTwo, kTwo, Named("depth_left", 1)};
-  Part layer = Colours(7, Named("beauty", 1));
-  for (Channel& channel : layer.channels) channel.name = "beauty." + channel.name;
-  const std::vector<std::tuple<std::vector<Part>, float, std::string>> rows = {
-      {{Colours(5, Named("rgba_right", 1)), distances, Colours(6, Named("rgba_left", 1))},
-       6,
-       "the file has 2 pictures, of which the program reads rgba_left"},
-      {{Colours(5, Named("a", 1) + Attribute("view", "string", "right")),
-        Colours(6, Named("b", 1) + Attribute("view", "string", "left"))},
-       6,
-       "reads b"},
-      {{distances, layer}, 7, ""},
-      {{layer, Colours(8, Named("c", 1))}, 7, "reads beauty"},
-  };
-  for (const auto& [parts, red, note] : rows) {
-    CAPTURE(note);
-    const Bytes file = BytesOf(Exr(parts));
-    const Result<DepthPhoto> photo =
-        DecodeDepthPhoto("a.exr", {file.data(), file.size()}, false, Near::kUnknown);
-    REQUIRE(photo == "");
-    REQUIRE(photo->deep);
-    CHECK(FloatOfHalf(photo->deep->samples[0]) == red);
-    std::string notes;
-    for (const std::string& text : photo->notes) notes += text + "\n";
-    CHECK(Contains(notes, note));
-    CHECK(Contains(notes, "pictures") == !note.empty());
-    CHECK(Contains(notes, "light brighter than white"));
-  }
-}
-
-using FactList = std::vector<std::pair<std::string, std::string>>;
-
-Result<DepthPhoto> ReadPhoto(const std::string& file) {
-  const Bytes bytes = BytesOf(file);
-  return DecodeDepthPhoto("photo", {bytes.data(), bytes.size()}, true, Near::kUnknown);
-}
-
-TEST_CASE("OpenEXR: the channel Z is the depth of the picture in the same file") {
-  if (!HasExr()) return;
-  const float infinity = std::numeric_limits<float>::infinity();
-  Part part = Colours(1);
-  part.channels.push_back({"Z", false, {4, -1}});
-  part.display = {0, 0, 2, 0};
-  const Result<DepthPhoto> photo = ReadPhoto(Exr({part}));
-  REQUIRE(photo == "");
-  CHECK(photo->format == "OpenEXR picture with depth");
-  CHECK(photo->meaning == MapMeaning::kInverse);
-  REQUIRE(photo->map.values.size() == 3);
-  CHECK(photo->map.values[0] == 1 / 4.0F);
-  CHECK(std::isnan(photo->map.values[1]));
-  CHECK(photo->map.values[2] == 1 / infinity);
-  CHECK(ReadPhoto(Exr({Colours(1)}))->map.values.empty());
-}
-
 TEST_CASE("facts: bits, transfer, primaries, alpha and headroom describe pictures of 16 bits") {
   const auto facts = [](const std::string& file) {
     const Result<DepthPhoto> photo = ReadPhoto(file);
@@ -360,7 +188,7 @@ TEST_CASE("facts: bits, transfer, primaries, alpha and headroom describe picture
                                                            {"headroom", "4 times white"}});
   }
   if (!HasExr()) return;
-  Part part = Colours(6.5F);
+  ExrPart part = Colours(6.5F);
   part.channels.insert(part.channels.begin(), {"A", true, {0.5F, 1}});
   CHECK(facts(Exr({part})) == FactList{{"samples", "16 bits, floats"},
                                        {"transfer", "linear light"},
@@ -373,7 +201,7 @@ TEST_CASE("orientation: the picture of 16 bits turns with the picture of 8 bits"
   if (!HasExr()) return;
   for (int orientation = 2; orientation <= 8; ++orientation) {
     CAPTURE(orientation);
-    Part part = {{}, {0, 0, 2, 1}, {0, 0, 2, 1}};
+    ExrPart part = {{}, {0, 0, 2, 1}, {0, 0, 2, 1}};
     for (const char* name : {"A", "B", "G", "R"}) {
       part.channels.push_back({name, true, {0.5F, 0.25F, 0.125F, 1, 0.75F, 0}});
     }
@@ -386,87 +214,6 @@ TEST_CASE("orientation: the picture of 16 bits turns with the picture of 8 bits"
     CHECK(ToImage(deep).pixels == photo.picture.pixels);
     CHECK(deep.samples[3] == deep.samples[0]);
   }
-}
-
-TEST_CASE("OpenEXR: samples that are not finite are replaced, and a note counts them") {
-  if (!HasExr()) return;
-  const float infinity = std::numeric_limits<float>::infinity();
-  const Part part = {{{"B", true, {infinity, -infinity}},
-                      {"G", false, {1e6F, std::nanf("")}},
-                      {"R", true, {65504, 1}}},
-                     kTwo,
-                     kTwo};
-  const Bytes file = BytesOf(Exr({part}));
-  const Result<DepthPhoto> photo =
-      DecodeDepthPhoto("a.exr", {file.data(), file.size()}, false, Near::kUnknown);
-  REQUIRE(photo == "");
-  CHECK(LightsOf(*photo->deep) == std::vector<float>{65504, 65504, 65504, 1, 0, -65504});
-  REQUIRE(!photo->notes.empty());
-  CHECK(Contains(photo->notes[0], "4 samples that are infinite, not a number or beyond 65504"));
-}
-
-TEST_CASE("OpenEXR: depth, disparities and mattes are read from their channels") {
-  if (!HasExr()) return;
-  const float infinity = std::numeric_limits<float>::infinity();
-  const Box wide = {0, 0, 2, 0};
-  const auto one = [&](const std::string& name) {
-    return Part{{{name, false, {0.1F, 5}}}, kTwo, wide, Named(name, 1)};
-  };
-  const auto read = [](const std::vector<Part>& parts, Alpha alpha) {
-    return DecodeDepthFile("map", alpha, BytesOf(Exr(parts)));
-  };
-  const auto values = [&](const std::vector<Part>& parts, Alpha alpha) {
-    const Result<Samples> samples = read(parts, alpha);
-    REQUIRE(samples == "");
-    CHECK(std::tuple(samples->map.width, samples->map.height) == std::tuple(3, 1));
-    CHECK(samples->largest == 0);
-    return samples->map.values;
-  };
-  const std::vector<float> far = {0.1F, 5, infinity}, dark = {0.1F, 5, 0};
-  CHECK(values({one("Z")}, Alpha::kTransparent) == far);
-  CHECK(values({one("disparity.x"), one("left.Z")}, Alpha::kTransparent) == far);
-  for (const char* name : {"disparity.x", "depth", "Depth.V", "Y"}) {
-    CAPTURE(name);
-    const std::vector<float> found = values({one(name)}, Alpha::kTransparent);
-    CHECK(std::vector<float>(found.begin(), found.begin() + 2) == std::vector<float>{0.1F, 5});
-    CHECK(std::isnan(found[2]));
-    CHECK(read({one(name)}, Alpha::kTransparent)->larger_is_nearer ==
-          (name == std::string("disparity.x")));
-  }
-  Part colours = Colours(1, Named("c", 1));
-  colours.display = wide;
-  CHECK(values({colours, one("A")}, Alpha::kTaken) == dark);
-  CHECK(values({one("Y")}, Alpha::kTaken) == dark);
-  CHECK(Contains(read({Colours(1)}, Alpha::kTransparent),
-                 "expected an OpenEXR file with the channel Z or with one channel, found the "
-                 "channels B, G, R"));
-  CHECK(Contains(read({Colours(1)}, Alpha::kTaken), "with the channel A or with one channel"));
-}
-
-TEST_CASE("OpenEXR: damaged and excessive files are rejected before memory is allocated") {
-  if (!HasExr()) return;
-  const std::string whole = Exr({Colours(1)});
-  for (size_t size = 4; size < whole.size(); ++size) {
-    const Result<DecodedPicture> picture = Decode(whole.substr(0, size));
-    if (!Contains(picture, "a: expected an undamaged OpenEXR file")) FAIL_CHECK(size);
-  }
-  const auto with = [](const Box& data, const Box& display) {
-    Part part = Colours(1);
-    const std::string file = Exr({part});
-    std::string changed = file;
-    changed.replace(file.find("dataWindow") + 21, 16, BoxText(data));
-    changed.replace(file.find("displayWindow") + 24, 16, BoxText(display));
-    return changed;
-  };
-  CHECK(Decode(with(kTwo, kTwo)) == "");
-  CHECK(Contains(Decode(with(kTwo, {0, 0, 65535, 9})), "width and height from 1 to 65535"));
-  CHECK(Contains(Decode(with(kTwo, {0, 0, 20000, 20000})), "at most 2^28 pixels"));
-  CHECK(Contains(Decode(with(kTwo, {0, 0, 9999, 9999})), "too small for its pixels"));
-  CHECK(Contains(Decode(with({0, 0, 9999, 9999}, kTwo)), "an undamaged OpenEXR file"));
-  CHECK(Contains(Decode(with({900000, 0, 900001, 0}, kTwo)), "far away"));
-  CHECK(Contains(Decode(with({0, 0, -2147483647, 0}, kTwo)), "OpenEXR"));
-  CHECK(Contains(Decode(Exr({{{{"Z", false, {1, 2}}}, kTwo, kTwo}})),
-                 "with the channels R, G and B, or Y, found the channels Z"));
 }
 
 DeepImage DeepPattern(int width, int height, int channels) {
