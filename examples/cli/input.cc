@@ -39,6 +39,9 @@ std::string ReasonToSkip(const std::string& name, bool has_depth) {
   if (extension == ".png" || extension == ".webp" || extension == ".ppm") {
     return has_depth ? "" : "a PNG, WebP or PPM picture without a depth picture next to it";
   }
+  if (extension == ".tif" || extension == ".tiff" || extension == ".exr") {
+    return has_depth ? "" : "a TIFF or OpenEXR picture without a depth picture next to it";
+  }
   const bool is_photo = extension == ".jpg" || extension == ".jpeg" || extension == ".mpo" ||
                         extension == ".heic" || extension == ".heif" || extension == ".avif";
   return is_photo ? "" : "a file of another type";

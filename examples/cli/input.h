@@ -27,9 +27,9 @@ struct FoundInputs {
 
 // Returns the inputs that `path` stands for. If `path` is a folder but not a light field, these are
 // the photos and light fields in the folder, without the folder `out`. Otherwise the only input is
-// `path`. A PNG, WebP or PPM file is a photo if it has a depth picture next to it, or if
-// `has_command` is true, which means that a command computes the depth or the matte of photos. A
-// row of pictures with numbers in their names is a light field unless one of the pictures
+// `path`. A PNG, WebP, PPM, TIFF or OpenEXR file is a photo if it has a depth picture next to it,
+// or if `has_command` is true, which means that a command computes the depth or the matte of
+// photos. A row of pictures with numbers in their names is a light field unless one of the pictures
 // has depth or `has_command` is true. If a folder contains several stereo pairs in the folders
 // `left` and `right`, the inputs are the left pictures. Returns an error if the folder contains no
 // input.

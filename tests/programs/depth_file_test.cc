@@ -261,7 +261,7 @@ TEST_CASE("depth files: the content determines the format, and other formats are
   const Result<Samples> pgm = Decode("P5 2 1 9 \4\7");
   REQUIRE(pgm == "");
   CHECK(pgm->largest == 9);
-  CHECK(Contains(Decode("v/1\1 and more bytes"), "map: expected an undamaged OpenEXR file"));
+  CHECK(Contains(Decode("v/1\1 and more bytes"), "OpenEXR"));
 }
 
 TEST_CASE("depth files: every text is described as a text, and the error names formats of maps") {
