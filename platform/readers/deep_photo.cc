@@ -52,6 +52,9 @@ void TakePicture(DecodedPicture picture, DepthPhoto* photo) {
   constexpr int kSrgbTransfer = 13;  // code point of H.273
   ColourDescription& colours = photo->metadata.colours;
   if (!colours.form.empty()) colours.transfer = kSrgbTransfer;
+  if (!photo->metadata.icc.empty() && deep.is_half) {
+    photo->notes.push_back("the ICC profile is ignored, because the samples are floats");
+  }
   photo->metadata.icc.clear();
   if (largest > 1) {
     photo->notes.push_back("light brighter than white, up to " + Times(largest) +
