@@ -426,18 +426,20 @@ TEST_CASE("TIFF: pictures of 8 and 16 bits and of floats are read, with alpha") 
 TEST_CASE("TIFF: raw files, other layouts and small files of many pixels are rejected") {
   if (!HasTiff()) return;
   const std::string strip = LittleWords({1, 2, 3});
-  const std::vector<std::tuple<Tags, std::string>> rows = {
-      {{{254, 1}}, "found a raw file"},
-      {{{262, 6}}, "found 3 samples of photometric interpretation 6"},
-      {{{284, 2}}, "a TIFF picture of interleaved RGB or grey"},
-      {{{339, 2}}, "found 16-bit signed integers"},
-      {{{274, 6}}, "a TIFF of orientation 1, found 6"},
-      {{{259, 7}}, "found compression 7 (convert it to PNG"},
-      {{{256, 65536}}, "width and height from 1 to 65535"},
-      {{{256, 16384}, {257, 16384}}, "too small for its pixels"}};
-  for (const auto& [tags, error] : rows) {
-    CAPTURE(error);
-    CHECK(Contains(Decode(Tiff(1, 3, 16, tags, strip)), error));
+  const struct {
+    Tags tags;
+    std::string error;
+  } rows[] = {{{{254, 1}}, "found a raw file"},
+              {{{262, 6}}, "found 3 samples of photometric interpretation 6"},
+              {{{284, 2}}, "a TIFF picture of interleaved RGB or grey"},
+              {{{339, 2}}, "found 16-bit signed integers"},
+              {{{274, 6}}, "a TIFF of orientation 1, found 6"},
+              {{{259, 7}}, "found compression 7 (convert it to PNG"},
+              {{{256, 65536}}, "width and height from 1 to 65535"},
+              {{{256, 16384}, {257, 16384}}, "too small for its pixels"}};
+  for (const auto& row : rows) {
+    CAPTURE(row.error);
+    CHECK(Contains(Decode(Tiff(1, 3, 16, row.tags, strip)), row.error));
   }
 }
 

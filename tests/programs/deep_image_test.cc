@@ -65,7 +65,10 @@ TEST_CASE("transfers: codes give the light of the standards") {
   // Values of IEC 61966-2-1, of SMPTE ST 2084 in cd/m2 divided by 203, and of ITU-R BT.2100, table
   // 5, divided by the light of the scene at code 0.75.
   constexpr double kHlgWhite = 0.26496256042100724;
-  const std::tuple<int32_t, double, double> rows[] = {
+  const struct {
+    int32_t transfer;
+    double code, light;
+  } rows[] = {
       {kSrgb, 0, 0},
       {kSrgb, 0.04045, 0.0031308049535603713},
       {kSrgb, 0.5, 0.21404114048223255},
@@ -80,11 +83,11 @@ TEST_CASE("transfers: codes give the light of the standards") {
       {kHlg, 0.75, 1},
       {kHlg, 1, 1 / kHlgWhite},
   };
-  for (const auto& [transfer, code, light] : rows) {
-    CAPTURE(transfer);
-    CAPTURE(code);
-    CHECK(LightOfCode(transfer, code) == doctest::Approx(light).epsilon(1e-6));
-    CHECK(CodeOfLight(transfer, light) == doctest::Approx(code).epsilon(1e-6));
+  for (const auto& row : rows) {
+    CAPTURE(row.transfer);
+    CAPTURE(row.code);
+    CHECK(LightOfCode(row.transfer, row.code) == doctest::Approx(row.light).epsilon(1e-6));
+    CHECK(CodeOfLight(row.transfer, row.light) == doctest::Approx(row.code).epsilon(1e-6));
   }
 }
 

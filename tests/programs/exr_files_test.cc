@@ -77,7 +77,11 @@ TEST_CASE("OpenEXR: the first picture that is no right view is read, and a note 
   const ExrPart distances = {{{"Z", false, {4, 5}}}, kTwo, kTwo, Named("depth_left", 1)};
   ExrPart layer = Colours(7, Named("beauty", 1));
   for (Channel& channel : layer.channels) channel.name = "beauty." + channel.name;
-  const std::vector<std::tuple<std::vector<ExrPart>, float, std::string>> rows = {
+  const struct {
+    std::vector<ExrPart> parts;
+    float red;
+    std::string note;
+  } rows[] = {
       {{Colours(5, Named("rgba_right", 1)), distances, Colours(6, Named("rgba_left", 1))},
        6,
        "the file has 2 pictures, of which the program reads rgba_left"},
@@ -88,18 +92,18 @@ TEST_CASE("OpenEXR: the first picture that is no right view is read, and a note 
       {{distances, layer}, 7, ""},
       {{layer, Colours(8, Named("c", 1))}, 7, "reads beauty"},
   };
-  for (const auto& [parts, red, note] : rows) {
-    CAPTURE(note);
-    const Bytes file = BytesOf(Exr(parts));
+  for (const auto& row : rows) {
+    CAPTURE(row.note);
+    const Bytes file = BytesOf(Exr(row.parts));
     const Result<DepthPhoto> photo =
         DecodeDepthPhoto("a.exr", {file.data(), file.size()}, false, Near::kUnknown);
     REQUIRE(photo == "");
     REQUIRE(photo->deep);
-    CHECK(FloatOfHalf(photo->deep->samples[0]) == red);
+    CHECK(FloatOfHalf(photo->deep->samples[0]) == row.red);
     std::string notes;
     for (const std::string& text : photo->notes) notes += text + "\n";
-    CHECK(Contains(notes, note));
-    CHECK(Contains(notes, "pictures") == !note.empty());
+    CHECK(Contains(notes, row.note));
+    CHECK(Contains(notes, "pictures") == !row.note.empty());
     CHECK(Contains(notes, "light brighter than white"));
   }
 }
@@ -199,16 +203,16 @@ TEST_CASE("OpenEXR: damaged and excessive files are rejected before memory is al
   CHECK(Contains(Decode(with({900000, 0, 900001, 0}, kTwo)), "far away"));
   CHECK(Contains(Decode(with({0, 0, -2147483647, 0}, kTwo)), "OpenEXR"));
   // OpenEXR would read the value without its size, and then the rest of the value as a name.
-  for (const auto& [type, value] : std::vector<std::pair<std::string, std::string>>{
+  for (const auto& attribute : std::vector<std::pair<std::string, std::string>>{
            {"int", std::string(5, '\1')},
            {"stringvector", Little(1000000000, 4)},
            {"preview", Little(60000, 4) + Little(60000, 4)},
            {"chlist", std::string("R\0", 2)},
            {"floatvector", "abc"},
            {std::string(256, 't'), ""}}) {
-    CAPTURE(type);
-    CHECK(Contains(Decode(Exr({Colours(1, Attribute("own", type, value))})),
-                   "a damaged one (its header)"));
+    CAPTURE(attribute.first);
+    const std::string more = Attribute("own", attribute.first, attribute.second);
+    CHECK(Contains(Decode(Exr({Colours(1, more)})), "a damaged one (its header)"));
   }
   CHECK(Decode(Exr({Colours(1, Attribute("own", "owntype", "abc"))})) == "");
   CHECK(Contains(Decode(Exr({{{{"Z", false, {1, 2}}}, kTwo, kTwo}})),
