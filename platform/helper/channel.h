@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "platform/gain_map.h"
 #include "platform/image.h"
 #include "platform/levels.h"
 #include "platform/metadata.h"
@@ -113,6 +114,7 @@ class Channel {
 void Pass(Channel* channel, bool* value);
 void Pass(Channel* channel, Image* image);
 void Pass(Channel* channel, FloatMap* map);
+void Pass(Channel* channel, GainMap* map);
 void Pass(Channel* channel, ColourDescription* colours);
 void Pass(Channel* channel, Metadata* metadata);
 void Pass(Channel* channel, Samples* samples);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/readers/orientation.h"
 
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 namespace starfocus {
 namespace {
 
@@ -32,37 +36,30 @@ struct Turn {
   }
 };
 
-void TurnPicture(int orientation, Image* image) {
-  const bool swaps = SwapsSides(orientation);
-  Image result(swaps ? image->height : image->width, swaps ? image->width : image->height);
-  const Turn turn = {orientation, result.width, result.height};
-  for (int y = 0; y < result.height; ++y) {
-    uint8_t* to = result.row(y);
-    for (int x = 0; x < result.width; ++x) {
+// Turns a picture of `channels` samples per pixel.
+template <class Sample>
+void TurnSamples(int orientation, int channels, int* width, int* height,
+                 std::vector<Sample>* samples) {
+  const int stored = *width;
+  if (SwapsSides(orientation)) std::swap(*width, *height);
+  std::vector<Sample> turned;
+  turned.reserve(samples->size());
+  const Turn turn = {orientation, *width, *height};
+  for (int y = 0; y < *height; ++y) {
+    for (int x = 0; x < *width; ++x) {
       const auto [from_x, from_y] = turn.Place(x, y);
-      const uint8_t* from = image->row(from_y) + 3 * size_t(from_x);
-      for (int c = 0; c < 3; ++c) *to++ = from[c];
+      const size_t pixel = size_t(from_y) * size_t(stored) + size_t(from_x);
+      const auto from = samples->begin() + static_cast<ptrdiff_t>(pixel * size_t(channels));
+      turned.insert(turned.end(), from, from + channels);
     }
   }
-  *image = std::move(result);
+  *samples = std::move(turned);
 }
 
 }  // namespace
 
 void TurnMap(int orientation, FloatMap* map) {
-  const bool swaps = SwapsSides(orientation);
-  FloatMap result;
-  result.width = swaps ? map->height : map->width;
-  result.height = swaps ? map->width : map->height;
-  result.values.reserve(map->values.size());
-  const Turn turn = {orientation, result.width, result.height};
-  for (int y = 0; y < result.height; ++y) {
-    for (int x = 0; x < result.width; ++x) {
-      const auto [from_x, from_y] = turn.Place(x, y);
-      result.values.push_back(map->at(from_x, from_y));
-    }
-  }
-  *map = std::move(result);
+  TurnSamples(orientation, 1, &map->width, &map->height, &map->values);
 }
 
 void TurnPoint(int orientation, double* x, double* y) {
@@ -74,7 +71,10 @@ void TurnPoint(int orientation, double* x, double* y) {
 void ApplyOrientation(DepthPhoto* photo) {
   const int orientation = photo->orientation;
   if (orientation <= 1 || orientation > 8) return;
-  TurnPicture(orientation, &photo->picture);
+  Image& picture = photo->picture;
+  TurnSamples(orientation, 3, &picture.width, &picture.height, &picture.pixels);
+  GainMap& gain = photo->gain_map;
+  TurnSamples(orientation, gain.channels, &gain.width, &gain.height, &gain.levels);
   TurnMap(orientation, &photo->map);
   TurnMap(orientation, &photo->matte);
   TurnPoint(orientation, &photo->focus_x, &photo->focus_y);
