@@ -90,9 +90,10 @@ bool HasSameGain(const GainMap& map, size_t a, size_t b) {
   return map.min[a] == map.min[b] && map.max[a] == map.max[b] && map.gamma[a] == map.gamma[b];
 }
 
-// Sums of the gains, in stops, of the pixels of each level of a map, for one channel.
+// Gains, in stops, of the pixels of each level of a map, for one channel.
 struct Gains {
-  std::vector<double> mean;      // The sum while pixels are added.
+  std::vector<double> mean;      // Weighted mean; the weighted sum while pixels are added.
+  std::vector<double> weight;    // Sum of the weights.
   std::vector<float> low, high;  // The smallest and the largest gain.
 };
 
@@ -110,11 +111,15 @@ float Luminance(const std::array<float, kColours>& light) {
   return 0.2126F * light[0] + 0.7152F * light[1] + 0.0722F * light[2];
 }
 
-// Adds the gains of a row of pixels to the levels from index `first` on.
-void AddRow(const uint8_t* base, const uint16_t* light, size_t light_channels,
+// Adds the gains of a row of pixels to the levels from index `first` on. The weight of a pixel is
+// the effect of the gain on its code in PQ, which is approximately the logarithm of the light
+// + kDark: dark pixels whose light the gain hardly changes do not determine it. kSmallestOffset
+// keeps the gains of black pixels finite if `offset` is 0.
+void AddRow(const uint8_t* base, const uint16_t* light, size_t light_channels, float offset,
             const std::vector<size_t>& columns, size_t first, std::vector<Gains>* gains) {
   static const std::array<float, 256> kSrgb = SrgbLight();
-  constexpr float kOffset = 1.0F / 64;
+  constexpr float kDark = 1.0F / 128, kSmallestOffset = 1.0F / (1 << 16);
+  const float added = std::max(offset, kSmallestOffset);
   for (size_t x = 0; x < columns.size(); ++x) {
     std::array<float, kColours> from = {}, to = {};
     for (size_t c = 0; c < kColours; ++c) {
@@ -126,10 +131,12 @@ void AddRow(const uint8_t* base, const uint16_t* light, size_t light_channels,
       to[0] = Luminance(to);
     }
     for (size_t c = 0; c < gains->size(); ++c) {
-      const float gain = std::log2((to[c] + kOffset) / (from[c] + kOffset));
+      const float gain = std::log2((to[c] + added) / (from[c] + added));
+      const double weight = double{(to[c] + added) / (to[c] + added + kDark)};
       Gains& its = (*gains)[c];
       const size_t level = first + columns[x];
-      its.mean[level] += double{gain};
+      its.mean[level] += weight * double{gain};
+      its.weight[level] += weight;
       its.low[level] = std::min(its.low[level], gain);
       its.high[level] = std::max(its.high[level], gain);
     }
@@ -204,6 +211,8 @@ Error CheckGainMap(const std::string& where, const GainMap& map) {
   if (Error error = check("Gamma", map.gamma, 1 / kMostGamma, kMostGamma)) return error;
   if (Error error = check("OffsetSDR", map.offset_sdr, -1, 1)) return error;
   if (Error error = check("OffsetHDR", map.offset_hdr, -1, 1)) return error;
+  const std::array<double, 3> capacities = {map.capacity_min, map.capacity_max, map.capacity_max};
+  if (Error error = check("HDRCapacity", capacities, -kMostStops, kMostStops)) return error;
   for (size_t c = 0; c < kColours; ++c) {
     if (map.min[c] <= map.max[c]) continue;
     return Expected(where, "GainMapMin up to GainMapMax",
@@ -244,31 +253,29 @@ DeepImage ApplyGainMap(const Image& base, const GainMap& map) {
   return light;
 }
 
-GainMap ComputeGainMap(const Image& base, const DeepImage& light, int step, int channels) {
+GainMap ComputeGainMap(const Image& base, const DeepImage& light, int step, int channels,
+                       double offset) {
   GainMap map;
   map.width = (base.width + step - 1) / step;
   map.height = (base.height + step - 1) / step;
   map.channels = channels;
+  map.offset_sdr.fill(offset);
+  map.offset_hdr.fill(offset);
   const size_t width = static_cast<size_t>(map.width), height = static_cast<size_t>(map.height);
   const size_t levels = width * height;
   map.levels.resize(levels * static_cast<size_t>(channels));
-  const Gains none = {std::vector<double>(levels), std::vector<float>(levels, HUGE_VALF),
+  const Gains none = {std::vector<double>(levels), std::vector<double>(levels),
+                      std::vector<float>(levels, HUGE_VALF),
                       std::vector<float>(levels, -HUGE_VALF)};
   std::vector<Gains> gains(static_cast<size_t>(channels), none);
   const std::vector<size_t> columns = OwnersOf(base.width, map.width);
   const std::vector<size_t> rows = OwnersOf(base.height, map.height);
   for (int y = 0; y < base.height; ++y) {
-    AddRow(base.row(y), light.row(y), static_cast<size_t>(light.channels), columns,
-           rows[static_cast<size_t>(y)] * width, &gains);
+    AddRow(base.row(y), light.row(y), static_cast<size_t>(light.channels),
+           static_cast<float>(offset), columns, rows[static_cast<size_t>(y)] * width, &gains);
   }
-  const auto sizes = [](const std::vector<size_t>& owners, size_t count) {
-    std::vector<double> pixels(count);
-    for (const size_t owner : owners) ++pixels[owner];
-    return pixels;
-  };
-  const std::vector<double> across = sizes(columns, width), down = sizes(rows, height);
   for (size_t c = 0; c < gains.size(); ++c) {
-    for (size_t k = 0; k < levels; ++k) gains[c].mean[k] /= across[k % width] * down[k / width];
+    for (size_t k = 0; k < levels; ++k) gains[c].mean[k] /= gains[c].weight[k];
     StoreLevels(FitLevels(gains[c], width, height), c, &map);
   }
   map.capacity_min = std::max(*std::min_element(map.min.begin(), map.min.end()), 0.0);
