@@ -7,11 +7,14 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "platform/half.h"
+#include "platform/helper/helper.h"
 #include "platform/readers/apple_gain_map.h"
+#include "platform/readers/confined_photo.h"
 #include "platform/readers/depth_photo_file.h"
 #include "platform/readers/gain_map.h"
 #include "platform/readers/orientation.h"
@@ -291,6 +294,29 @@ TEST_CASE("gain maps: colours of the map give three channels, and the orientatio
     CHECK(map.levels[3 * size_t(map.width - 1) + c] == stored[c]);
     CHECK(map.levels[stored.size() - 3 * size_t(map.width) + c] == stored[stored.size() - 3 + c]);
   }
+}
+
+TEST_CASE("gain maps: maps arrive unchanged from the helper process") {
+  if (!CanReadXmp()) return;
+  ConfineDecoders();
+  Image colours(kWidth / 2, kHeight / 2);
+  for (size_t k = 0; k < colours.pixels.size(); ++k) colours.pixels[k] = uint8_t(k % 251);
+  const std::string file = Photo() + Insert(Encode(colours, ".jpg"), GainMapXmp());
+  const DepthPhoto direct = ValueOf(Read(file));
+  const DepthPhoto passed =
+      ValueOf(ConfinedPhoto("photo.jpg", SpanOf(file), [&] { return Read(file); }));
+  const GainMap &a = direct.gain_map, &b = passed.gain_map;
+  REQUIRE(a.channels == 3);
+  CHECK(std::tie(a.width, a.height, a.channels, a.levels, a.format, a.min, a.max, a.gamma,
+                 a.offset_sdr, a.offset_hdr, a.capacity_min, a.capacity_max) ==
+        std::tie(b.width, b.height, b.channels, b.levels, b.format, b.min, b.max, b.gamma,
+                 b.offset_sdr, b.offset_hdr, b.capacity_min, b.capacity_max));
+  // The program does not trust the helper process: it checks the parameters again.
+  GainMap wrong = Map(2, 2, 1, 0);
+  if (!DecodersAreConfined()) return;
+  const Error error = RunHelper(
+      "photo.jpg", kDecoderLimits, [] {}, [&](Channel* channel) { Pass(channel, &wrong); });
+  CHECK(error);
 }
 
 // Returns EXIF whose maker note has the given tags of Apple, each a fraction of 1000.

@@ -240,7 +240,8 @@ TEST_CASE("decoding_memory: every photo takes at most the estimated memory, and 
       if (!photo) continue;
       ++photos;
       const uint64_t held = photo->picture.pixels.size() + photo->right.pixels.size() +
-                            photo->map.values.size() * sizeof(float);
+                            photo->map.values.size() * sizeof(float) +
+                            photo->gain_map.levels.size() * sizeof(uint16_t);
       CHECK(DecodingBytes(file) >= 2 * held);
       // HEIF pictures are padded to blocks of 64 x 64 pixels.
       CHECK(DecodingBytes(file) <= 65536 + 64 * photo->picture.pixels.size());
