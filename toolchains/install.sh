@@ -31,6 +31,8 @@ libseccomp-dev           build  seccomp.h
 libimage-exiftool-perl   test   exiftool
 webp                     test   webpinfo
 libsixel-bin             test   sixel2png
+python3-numpy            test   -
+python3-pil              test   -
 clang                    fuzz   clang
 libclang-rt-14-dev       fuzz   -
 libbenchmark-dev         -      benchmark/benchmark.h
