@@ -114,7 +114,8 @@ TEST_CASE("gain maps: the map of a picture that a map made is that map") {
       const GainMap again = ComputeGainMap(base, light, step, channels, 1.0 / 64);
       REQUIRE(again.width == map.width);
       REQUIRE(again.channels == channels);
-      CHECK(Compare(light, ApplyGainMap(base, again)).psnr > 50);
+      // Without the corrections of FitLevels: 50 to 60 dB.
+      CHECK(Compare(light, ApplyGainMap(base, again)).psnr > 62);
     }
   }
 }
