@@ -246,7 +246,7 @@ DeepImage ApplyGainMap(const Image& base, const GainMap& map) {
       size_t level = 0;
       for (size_t c = 0; c < kColours; ++c) {
         if (c < channels) level = LevelAt(mixed, place, channels, c);
-        *to++ = ToHalf((srgb[*from++] + before[c]) * (*factors[c])[level] - after[c]);
+        *to++ = HalfOfLight((srgb[*from++] + before[c]) * (*factors[c])[level] - after[c]);
       }
     }
   }

@@ -9,15 +9,15 @@
 
 namespace starfocus {
 
-inline constexpr float kLargestHalf = 65504;
+inline constexpr float kBrightestHalf = 65504;
 
 // Returns the half float nearest to `light`; of two nearest ones, the even one. Light is not
 // negative and has a limit: negative numbers and NaN give 0, and numbers above the largest half
 // float give the largest.
-inline uint16_t ToHalf(float light) {
+inline uint16_t HalfOfLight(float light) {
   constexpr float kSmallestNormal = 1.0F / (1 << 14);
   if (!(light > 0)) return 0;
-  if (light >= kLargestHalf) return 0x7bff;
+  if (light >= kBrightestHalf) return 0x7bff;
   if (light < kSmallestNormal) return static_cast<uint16_t>(std::lrint(light * (1 << 24)));
   uint32_t bits = 0;
   std::memcpy(&bits, &light, sizeof(bits));
@@ -30,7 +30,7 @@ inline uint16_t ToHalf(float light) {
 inline float LightOfHalf(uint16_t half) {
   constexpr uint16_t kInfinity = 0x7c00;
   if (half > kInfinity) return 0;
-  if (half == kInfinity) return kLargestHalf;
+  if (half == kInfinity) return kBrightestHalf;
   if (half < 1 << 10) return static_cast<float>(half) / (1 << 24);
   const uint32_t bits = (uint32_t{half} << 13) + (112u << 23);
   float light = 0;

@@ -382,24 +382,24 @@ TEST_CASE("gain maps: Apple's levels give the light of Apple's equation") {
   GainMap map = Map(1, 1, 0, 0);
   map.levels[0] = 65535;
   ToStops(0, &map);
-  CHECK(ApplyGainMap(Plain(1, 1, 255), map).samples[0] == ToHalf(1));
+  CHECK(ApplyGainMap(Plain(1, 1, 255), map).samples[0] == HalfOfLight(1));
 }
 
 TEST_CASE("gain maps: half floats round to the nearest, and all finite ones keep their value") {
   for (uint32_t half = 0; half < 0x7c00; ++half) {
-    REQUIRE(ToHalf(LightOfHalf(static_cast<uint16_t>(half))) == half);
+    REQUIRE(HalfOfLight(LightOfHalf(static_cast<uint16_t>(half))) == half);
   }
   CHECK(LightOfHalf(0x3c00) == 1);
   CHECK(LightOfHalf(0x0001) == std::ldexp(1.0F, -24));
   CHECK(LightOfHalf(0x7c00) == 65504);
   CHECK(LightOfHalf(0xbc00) == 0);
   CHECK(LightOfHalf(0x7e00) == 0);
-  CHECK(ToHalf(1 + 0x1p-11F) == 0x3c00);
-  CHECK(ToHalf(1 + 0x1.8p-10F) == 0x3c02);
-  CHECK(ToHalf(0x1.ffep-15F) == 0x0400);
-  CHECK(ToHalf(-1) == 0);
-  CHECK(ToHalf(NAN) == 0);
-  CHECK(ToHalf(HUGE_VALF) == 0x7bff);
+  CHECK(HalfOfLight(1 + 0x1p-11F) == 0x3c00);
+  CHECK(HalfOfLight(1 + 0x1.8p-10F) == 0x3c02);
+  CHECK(HalfOfLight(0x1.ffep-15F) == 0x0400);
+  CHECK(HalfOfLight(-1) == 0);
+  CHECK(HalfOfLight(NAN) == 0);
+  CHECK(HalfOfLight(HUGE_VALF) == 0x7bff);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ DeepImage SmoothLight(int width, int height) {
       const double place = (x + 0.5) / width * 0.6 + (y + 0.5) / height * 0.4;
       for (size_t c = 0; c < 3; ++c) {
         const double stops = -6.6 + 9.6 * place + 0.2 * (double(c) - 1) * std::sin(6 * place);
-        light.row(y)[3 * size_t(x) + c] = ToHalf(static_cast<float>(std::exp2(stops)));
+        light.row(y)[3 * size_t(x) + c] = HalfOfLight(static_cast<float>(std::exp2(stops)));
       }
     }
   }
@@ -123,9 +123,9 @@ TEST_CASE("gain maps: the map of a picture that a map made is that map") {
 TEST_CASE("gain maps: no light is cut off, and small bright places get no dark rims") {
   const Image base = Plain(32, 24, 255);
   DeepImage light = Light(32, 24);
-  std::fill(light.samples.begin(), light.samples.end(), ToHalf(1));
+  std::fill(light.samples.begin(), light.samples.end(), HalfOfLight(1));
   for (int y = 8; y < 12; ++y) {
-    for (int k = 3 * 8; k < 3 * 12; ++k) light.row(y)[k] = ToHalf(100);
+    for (int k = 3 * 8; k < 3 * 12; ++k) light.row(y)[k] = HalfOfLight(100);
   }
   const GainMap map = ComputeGainMap(base, light, 4, 1);
   CHECK(map.min[0] == doctest::Approx(0));
