@@ -33,6 +33,8 @@ libimage-exiftool-perl   test   exiftool
 webp                     test   webpinfo
 libsixel-bin             test   sixel2png
 openexr                  test   exrinfo
+python3-numpy            test   -
+python3-pil              test   -
 clang                    fuzz   clang
 libclang-rt-14-dev       fuzz   -
 libbenchmark-dev         -      benchmark/benchmark.h

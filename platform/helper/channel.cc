@@ -144,6 +144,21 @@ void Pass(Channel* channel, FloatMap* map) {
   PassPixels(channel, &width, &height, 1, &values);
 }
 
+void Pass(Channel* channel, GainMap* map) {
+  auto& [width, height, channels, levels, format, min, max, gamma, offset_sdr, offset_hdr,
+         capacity_min, capacity_max] = *map;
+  channel->Value(&channels);
+  channel->Require(channels == 1 || channels == 3);
+  if (!channel->is_sound()) return;
+  PassPixels(channel, &width, &height, static_cast<size_t>(channels), &levels);
+  channel->Text(&format);
+  for (std::array<double, 3>* values : {&min, &max, &gamma, &offset_sdr, &offset_hdr}) {
+    for (double& value : *values) channel->Value(&value);
+  }
+  for (double* value : {&capacity_min, &capacity_max}) channel->Value(value);
+  channel->Require(levels.empty() || !CheckGainMap("", *map));
+}
+
 void Pass(Channel* channel, ColourDescription* colours) {
   auto& [form, primaries, transfer, full_range, chromaticities, gamma] = *colours;
   channel->Text(&form);

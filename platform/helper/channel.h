@@ -14,6 +14,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "platform/gain_map.h"
 #include "platform/image.h"
 #include "platform/levels.h"
 #include "platform/metadata.h"
@@ -115,6 +116,7 @@ void Pass(Channel* channel, bool* value);
 void Pass(Channel* channel, Image* image);
 void Pass(Channel* channel, std::optional<DeepImage>* deep);
 void Pass(Channel* channel, FloatMap* map);
+void Pass(Channel* channel, GainMap* map);
 void Pass(Channel* channel, ColourDescription* colours);
 void Pass(Channel* channel, Metadata* metadata);
 void Pass(Channel* channel, Samples* samples);

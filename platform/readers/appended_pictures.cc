@@ -72,7 +72,7 @@ size_t FindBeginning(Span file, size_t at) {
 // the segment of ISO 21496-1. A photo that has a gain map also names Adobe's version, but lists the
 // gain map in its directory.
 bool IsGainMap(const JpegParts& parts) {
-  return parts.has_gain_map_segment ||
+  return !parts.iso_gain_map.empty() ||
          std::any_of(parts.xmp.begin(), parts.xmp.end(), [](const Span& xmp) {
            return Contains(xmp, "hdrgainmap") ||
                   (Contains(xmp, "hdr-gain-map") && !Contains(xmp, "Directory"));

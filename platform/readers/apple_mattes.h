@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/file.h"
 #include "platform/pfm.h"
 #include "platform/readers/photo.h"
 #include "platform/result.h"
@@ -18,6 +19,7 @@ struct AuxiliaryPicture {
   std::string type;  // For example "urn:com:apple:photo:2019:aux:semantichairmatte".
   // Returns the levels of the picture, 0 to 1. Error messages start with `where`.
   std::function<Result<FloatMap>(const std::string& where)> decode;
+  Bytes xmp = {};  // XMP packet of the picture, if the reader needs it.
 };
 
 // Sets photo->matte to the portrait effects matte, which contains the whole subject. Without a

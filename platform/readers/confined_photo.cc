@@ -10,7 +10,7 @@ void Pass(Channel* channel, DepthPhoto* photo) {
   // The structured binding fails to compile if DepthPhoto gets another field. A helper process must
   // not choose files, so that no path is passed. Helpers do not apply the orientation. `survey` has
   // no figures before the map is complete.
-  auto& [format, picture, deep, deep_colours, map, map_problem, unused_path, matte, is_mask,
+  auto& [format, picture, deep, deep_colours, map, map_problem, unused_path, gain_map, matte, is_mask,
          unused_matte_path, matte_notes, right, unused_right_path, meaning, guesses_near,
          unused_survey, orientation, unused_applied_orientation, focal_35mm, is_blurred, has_focus,
          focus_x, focus_y, has_subject, subject_x, subject_y, is_ready, is_linear, focus_value,
@@ -19,6 +19,7 @@ void Pass(Channel* channel, DepthPhoto* photo) {
   Pass(channel, &deep);
   Pass(channel, &deep_colours);
   for (FloatMap* values : {&map, &matte}) Pass(channel, values);
+  Pass(channel, &gain_map);
   Pass(channel, &metadata);
   static_cast<void>(unused_path);
   static_cast<void>(unused_matte_path);

@@ -18,6 +18,7 @@
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/dynamic_depth.h"
 #include "platform/readers/exif.h"
+#include "platform/readers/gain_map.h"
 #include "platform/readers/gdepth.h"
 #include "platform/readers/heic.h"
 #include "platform/readers/kept_metadata.h"
@@ -131,7 +132,10 @@ Result<DepthPhoto> DecodeJpegPhoto(const std::string& where, Span file, bool wit
   const bool has_gain_map =
       std::any_of(appended.begin(), appended.end(),
                   [](const AppendedPicture& picture) { return picture.is_gain_map; });
-  if (has_gain_map) photo->facts.emplace_back("gain map", "ignored");
+  const Error problem = ReadGainMap(appended, &*photo);
+  if (has_gain_map) {
+    photo->facts.emplace_back("gain map", problem ? "ignored: " + problem.line() : "ignored");
+  }
   return photo;
 }
 

@@ -21,10 +21,12 @@
 #include "platform/decoders/numbers.h"
 #include "platform/helper/decoder_threads.h"
 #include "platform/readers/apple_depth.h"
+#include "platform/readers/apple_gain_map.h"
 #include "platform/readers/apple_mattes.h"
 #include "platform/readers/deep_photo.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/exif.h"
+#include "platform/readers/gain_map.h"
 #include "platform/readers/heif_limits.h"
 #include "platform/readers/kept_metadata.h"
 #include "platform/readers/orientation.h"
@@ -283,23 +285,26 @@ std::vector<AuxiliaryPicture> ListAuxiliaries(const heif_image_handle* primary, 
       continue;
     }
     const std::shared_ptr<heif_image_handle> handle(raw, ReleaseHandle);
-    pictures.push_back({TypeOf(raw), [handle, file](const std::string& where) -> Result<FloatMap> {
+    pictures.push_back({TypeOf(raw),
+                        [handle, file](const std::string& where) -> Result<FloatMap> {
                           if (Error error = CheckSize(where, handle.get(), file)) return error;
                           return DecodePlane(where, handle.get());
-                        }});
+                        },
+                        ReadMetadata(raw, "mime", "application/rdf+xml")});
   }
   return pictures;
 }
 
-// Reads the mattes among the auxiliary pictures. Adds an entry to photo->facts if an auxiliary
-// picture is a gain map. Refocusing does not use gain maps.
+// Reads the gain map and the mattes among the auxiliary pictures. Adds an entry to photo->facts if
+// an auxiliary picture is a gain map. Refocusing does not use gain maps.
 void ReadAuxiliaries(const heif_image_handle* primary, size_t file, DepthPhoto* photo) {
   const std::vector<AuxiliaryPicture> pictures = ListAuxiliaries(primary, file);
-  const bool has_gain_map =
-      std::any_of(pictures.begin(), pictures.end(), [](const AuxiliaryPicture& picture) {
-        return picture.type.find("gainmap") != std::string::npos;
-      });
-  if (has_gain_map) photo->facts.emplace_back("gain map", "ignored");
+  for (const AuxiliaryPicture& picture : pictures) {
+    if (picture.type.find("gainmap") == std::string::npos) continue;
+    const Error problem = ReadAppleGainMap(picture, photo);
+    photo->facts.emplace_back("gain map", problem ? "ignored: " + problem.line() : "ignored");
+    break;
+  }
   ChooseMatte(pictures, photo);
   if (photo->map.values.empty() && !photo->matte.values.empty()) {
     photo->format = "HEIF photo with a matte";

@@ -57,7 +57,7 @@ void TakeApp2(Span segment, std::vector<Span>* profile, JpegParts* parts) {
   if (Strip("ICC_PROFILE", &segment) && segment.size >= 2) profile->push_back(segment);
   // In a photo that has a gain map, the segment contains only two version numbers of 16 bits.
   if (Strip("urn:iso:std:iso:ts:21496:-1", &segment) && segment.size > 4) {
-    parts->has_gain_map_segment = true;
+    parts->iso_gain_map = segment;
   }
 }
 

@@ -36,8 +36,8 @@ struct JpegParts {
   std::vector<XmpExtension> extensions;
   Span multi_picture;  // Multi-picture index (CIPA DC-007), from its TIFF header to the end of the
                        // segment.
-  bool has_gain_map_segment = false;  // True if a segment of ISO 21496-1 describes a gain map.
-  size_t end = 0;                     // End of the first picture; other pictures may follow.
+  Span iso_gain_map;   // Metadata by ISO 21496-1 of a picture that is a gain map.
+  size_t end = 0;      // End of the first picture; other pictures may follow.
 };
 
 // Returns true if the bytes contain `part`.

@@ -5,27 +5,13 @@
 #include <iterator>
 #include <utility>
 
+#include "platform/readers/tiff_numbers.h"
+
 namespace starfocus {
 namespace {
 
 constexpr size_t kEntrySize = 16;
 constexpr uint32_t kEntryTag = 0xb002, kTypeBits = 0xffffff;
-
-// Reads integers of a TIFF header in either byte order. If a read extends past the end of the
-// header, the result is 0.
-struct Tiff {
-  Span bytes;
-  bool little = false;
-
-  uint32_t Whole(size_t at, size_t size) const {
-    if (at > bytes.size || size > bytes.size - at) return 0;
-    uint32_t value = 0;
-    for (size_t k = 0; k < size; ++k) {
-      value = value << 8 | bytes.data[little ? at + size - 1 - k : at + k];
-    }
-    return value;
-  }
-};
 
 // An entry of the multi-picture index: the position and the type of a picture.
 struct Entry {
@@ -42,20 +28,16 @@ struct Index {
 
 Index ReadIndex(Span file, Span index, size_t pictures) {
   Index result;
-  const Tiff tiff = {index, index.size > 0 && index.data[0] == 'I'};
+  const TiffNumbers tiff(index);
   const size_t base = index.empty() ? 0 : static_cast<size_t>(index.data - file.data);
-  const size_t directory = tiff.Whole(4, 4), tags = tiff.Whole(directory, 2);
-  for (size_t k = 0; k < tags && directory + 12 * k < index.size; ++k) {
-    const size_t tag = directory + 2 + 12 * k;
-    if (tiff.Whole(tag, 2) != kEntryTag) continue;
-    const size_t count = tiff.Whole(tag + 4, 4) / kEntrySize, first = tiff.Whole(tag + 8, 4);
-    result.counted = std::max(count, size_t{1}) - 1;
-    for (size_t n = 1; n <= pictures; ++n) {
-      const size_t at = first + n * kEntrySize;
-      if (at > index.size || kEntrySize > index.size - at) break;
-      result.entries.push_back({base + tiff.Whole(at + 8, 4), tiff.Whole(at, 4) & kTypeBits});
-    }
-    break;
+  const std::optional<size_t> tag = tiff.Entry(tiff.Whole(4, 4), kEntryTag);
+  if (!tag) return result;
+  const size_t count = tiff.Whole(*tag + 4, 4) / kEntrySize, first = tiff.Whole(*tag + 8, 4);
+  result.counted = std::max(count, size_t{1}) - 1;
+  for (size_t n = 1; n <= pictures; ++n) {
+    const size_t at = first + n * kEntrySize;
+    if (at > index.size || kEntrySize > index.size - at) break;
+    result.entries.push_back({base + tiff.Whole(at + 8, 4), tiff.Whole(at, 4) & kTypeBits});
   }
   return result;
 }

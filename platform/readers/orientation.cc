@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/readers/orientation.h"
 
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 namespace starfocus {
 namespace {
 
@@ -32,46 +36,30 @@ struct Turn {
   }
 };
 
-// Turns a picture with `samples` samples for each pixel.
-template <class Picture>
-void TurnPicture(int orientation, size_t samples, Picture result, Picture* image) {
-  const Turn turn = {orientation, result.width, result.height};
-  for (int y = 0; y < result.height; ++y) {
-    auto* to = result.row(y);
-    for (int x = 0; x < result.width; ++x) {
+// Turns a picture of `channels` samples per pixel.
+template <class Sample>
+void TurnSamples(int orientation, int channels, int* width, int* height,
+                 std::vector<Sample>* samples) {
+  const int stored = *width;
+  if (SwapsSides(orientation)) std::swap(*width, *height);
+  std::vector<Sample> turned;
+  turned.reserve(samples->size());
+  const Turn turn = {orientation, *width, *height};
+  for (int y = 0; y < *height; ++y) {
+    for (int x = 0; x < *width; ++x) {
       const auto [from_x, from_y] = turn.Place(x, y);
-      const auto* from = image->row(from_y) + samples * size_t(from_x);
-      for (size_t c = 0; c < samples; ++c) *to++ = from[c];
+      const size_t pixel = size_t(from_y) * size_t(stored) + size_t(from_x);
+      const auto from = samples->begin() + static_cast<ptrdiff_t>(pixel * size_t(channels));
+      turned.insert(turned.end(), from, from + channels);
     }
   }
-  *image = std::move(result);
-}
-
-void TurnDeep(int orientation, DeepImage* deep) {
-  const bool swaps = SwapsSides(orientation);
-  DeepImage result(swaps ? deep->height : deep->width, swaps ? deep->width : deep->height,
-                   deep->channels);
-  result.is_half = deep->is_half;
-  result.transfer = deep->transfer;
-  TurnPicture(orientation, size_t(deep->channels), std::move(result), deep);
+  *samples = std::move(turned);
 }
 
 }  // namespace
 
 void TurnMap(int orientation, FloatMap* map) {
-  const bool swaps = SwapsSides(orientation);
-  FloatMap result;
-  result.width = swaps ? map->height : map->width;
-  result.height = swaps ? map->width : map->height;
-  result.values.reserve(map->values.size());
-  const Turn turn = {orientation, result.width, result.height};
-  for (int y = 0; y < result.height; ++y) {
-    for (int x = 0; x < result.width; ++x) {
-      const auto [from_x, from_y] = turn.Place(x, y);
-      result.values.push_back(map->at(from_x, from_y));
-    }
-  }
-  *map = std::move(result);
+  TurnSamples(orientation, 1, &map->width, &map->height, &map->values);
 }
 
 void TurnPoint(int orientation, double* x, double* y) {
@@ -83,11 +71,14 @@ void TurnPoint(int orientation, double* x, double* y) {
 void ApplyOrientation(DepthPhoto* photo) {
   const int orientation = photo->orientation;
   if (orientation <= 1 || orientation > 8) return;
-  const bool swaps = SwapsSides(orientation);
-  const Image& picture = photo->picture;
-  Image turned(swaps ? picture.height : picture.width, swaps ? picture.width : picture.height);
-  TurnPicture(orientation, 3, std::move(turned), &photo->picture);
-  if (photo->deep) TurnDeep(orientation, &*photo->deep);
+  Image& picture = photo->picture;
+  TurnSamples(orientation, 3, &picture.width, &picture.height, &picture.pixels);
+  if (photo->deep) {
+    DeepImage& deep = *photo->deep;
+    TurnSamples(orientation, deep.channels, &deep.width, &deep.height, &deep.samples);
+  }
+  GainMap& gain = photo->gain_map;
+  TurnSamples(orientation, gain.channels, &gain.width, &gain.height, &gain.levels);
   TurnMap(orientation, &photo->map);
   TurnMap(orientation, &photo->matte);
   TurnPoint(orientation, &photo->focus_x, &photo->focus_y);

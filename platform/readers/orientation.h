@@ -14,7 +14,7 @@ void TurnMap(int orientation, FloatMap* map);
 // height.
 void TurnPoint(int orientation, double* x, double* y);
 
-// Rotates and mirrors picture, map, matte, focus and subject by photo->orientation. Moves
+// Rotates and mirrors picture, gain map, map, matte, focus and subject by photo->orientation. Moves
 // photo->orientation to photo->applied_orientation and adds an entry to photo->facts.
 void ApplyOrientation(DepthPhoto* photo);
 

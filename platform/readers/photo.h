@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "platform/file.h"
+#include "platform/gain_map.h"
 #include "platform/image.h"
 #include "platform/metadata.h"
 #include "platform/pfm.h"
@@ -39,6 +40,7 @@ struct DepthPhoto {
   FloatMap map;             // Depth map; NaN: unknown depth; empty: no readable map.
   std::string map_problem;  // Reason why the map in the file cannot be read; may be empty.
   std::string depth_path;   // Path of the depth picture; empty: the map is in the file.
+  GainMap gain_map;         // Light of `picture` beyond white; no levels: no readable gain map.
   FloatMap matte;           // Alpha of the subject, 0 to 1, of any size; empty: no matte.
   bool is_mask = false;     // True if `matte` is a mask of the subject in the file.
   std::string matte_path;   // Path of the matte; empty: the matte is in the file, or computed.

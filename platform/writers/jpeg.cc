@@ -8,7 +8,8 @@ namespace starfocus {
 
 Result<Bytes> EncodeJpeg(const std::string& path, const Image& image, int quality,
                          const Metadata& metadata, const Bytes& segments, RowGate* rows) {
-  Result<Bytes> jpeg = EncodeJpegPixels(path, image, quality, rows);
+  Result<Bytes> jpeg =
+      EncodeJpegPixels(path, {image.width, image.height, 3, image.pixels.data()}, quality, rows);
   if (!jpeg) return jpeg;
   Bytes all;
   AppendExif(EditedExif(metadata.exif, image.width, image.height), &all);

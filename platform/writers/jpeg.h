@@ -3,6 +3,7 @@
 #ifndef STARFOCUS_PLATFORM_WRITERS_JPEG_H_
 #define STARFOCUS_PLATFORM_WRITERS_JPEG_H_
 
+#include <cstdint>
 #include <string>
 
 #include "platform/image.h"
@@ -12,11 +13,17 @@
 
 namespace starfocus {
 
+// Rows of samples of 8 bits without padding, of one channel (grey) or three (R, G and B).
+struct Samples8 {
+  int width, height, channels;
+  const uint8_t* samples;
+};
+
 // Encodes the pixels without metadata. `quality` is 1 to 100. If the quality is 90 or more, chroma
 // is stored at full resolution. Uses libjpeg-turbo if available, otherwise stb_image_write. In all
 // functions of this header, `path` appears only in error messages. If `rows` is not null, another
 // thread computes the picture, and each row is read after `rows` has declared it finished.
-Result<Bytes> EncodeJpegPixels(const std::string& path, const Image& image, int quality,
+Result<Bytes> EncodeJpegPixels(const std::string& path, const Samples8& picture, int quality,
                                RowGate* rows);
 
 // Encodes a JPEG file with `segments` (jpeg_segments.h) and `metadata`, whose EXIF is edited to

@@ -86,6 +86,10 @@ bool AppendIptc(const Bytes& iptc, Bytes* segments) {
   return true;
 }
 
+void AppendApp2(const std::string& name, const std::string& content, Bytes* segments) {
+  Append(kApp2, name + '\0', content.begin(), content.end(), segments);
+}
+
 std::string XmpPacket(const std::string& descriptions) {
   return descriptions.empty() ? "" : Wrapped(Packet(descriptions));
 }

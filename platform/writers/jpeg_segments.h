@@ -21,6 +21,9 @@ bool AppendIptc(const Bytes& iptc, Bytes* segments);
 // Appends an XMP packet with the rdf:Descriptions in `descriptions` (Metadata::xmp).
 bool AppendXmp(const std::string& descriptions, Bytes* segments);
 
+// Appends a segment APP2: `name`, a zero byte and `content`, together at most 65533 bytes.
+void AppendApp2(const std::string& name, const std::string& content, Bytes* segments);
+
 // Returns a complete XMP packet for files that are not JPEG, or an empty string if `descriptions`
 // is empty.
 std::string XmpPacket(const std::string& descriptions);

@@ -7,13 +7,13 @@
 
 namespace starfocus {
 
-Result<Bytes> EncodeJpegPixels(const std::string& path, const Image& image, int quality,
+Result<Bytes> EncodeJpegPixels(const std::string& path, const Samples8& picture, int quality,
                                RowGate* rows) {
-  if (rows != nullptr) rows->WaitFor(image.height - 1);
+  if (rows != nullptr) rows->WaitFor(picture.height - 1);
   const StbMemory memory;
   Bytes jpeg;
-  if (stbi_write_jpg_to_func(AppendStb, &jpeg, image.width, image.height, 3, image.pixels.data(),
-                             quality)) {
+  if (stbi_write_jpg_to_func(AppendStb, &jpeg, picture.width, picture.height, picture.channels,
+                             picture.samples, quality)) {
     return jpeg;
   }
   return Expected(path, "a picture that can be encoded", "an encoder failure");

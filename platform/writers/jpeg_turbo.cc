@@ -36,7 +36,8 @@ struct Memory {
 
 // On failure, returns false and sets failure->reason. Local objects of Compress must not have
 // destructors, because longjmp on a libjpeg error skips destructors.
-bool Compress(const Image& image, int quality, RowGate* rows, Memory* memory, Failure* failure) {
+bool Compress(const Samples8& picture, int quality, RowGate* rows, Memory* memory,
+              Failure* failure) {
   jpeg_compress_struct info;
   info.err = jpeg_std_error(&failure->manager);
   failure->manager.error_exit = Fail;
@@ -47,19 +48,22 @@ bool Compress(const Image& image, int quality, RowGate* rows, Memory* memory, Fa
   }
   jpeg_create_compress(&info);
   jpeg_mem_dest(&info, &memory->data, &memory->size);
-  info.image_width = static_cast<JDIMENSION>(image.width);
-  info.image_height = static_cast<JDIMENSION>(image.height);
-  info.input_components = 3;
-  info.in_color_space = JCS_RGB;
+  const bool is_grey = picture.channels == 1;
+  info.image_width = static_cast<JDIMENSION>(picture.width);
+  info.image_height = static_cast<JDIMENSION>(picture.height);
+  info.input_components = picture.channels;
+  info.in_color_space = is_grey ? JCS_GRAYSCALE : JCS_RGB;
   jpeg_set_defaults(&info);
   jpeg_set_quality(&info, quality, TRUE);
   info.optimize_coding = TRUE;
-  if (quality >= 90) info.comp_info[0].h_samp_factor = info.comp_info[0].v_samp_factor = 1;
+  if (quality >= 90 && !is_grey)
+    info.comp_info[0].h_samp_factor = info.comp_info[0].v_samp_factor = 1;
   jpeg_start_compress(&info, TRUE);
   while (info.next_scanline < info.image_height) {
     const int y = static_cast<int>(info.next_scanline);
     if (rows != nullptr) rows->WaitFor(y);
-    JSAMPROW row = const_cast<JSAMPROW>(image.row(y));
+    const size_t stride = size_t(picture.channels) * size_t(picture.width);
+    JSAMPROW row = const_cast<JSAMPROW>(picture.samples + size_t(y) * stride);
     jpeg_write_scanlines(&info, &row, 1);
   }
   jpeg_finish_compress(&info);
@@ -69,11 +73,11 @@ bool Compress(const Image& image, int quality, RowGate* rows, Memory* memory, Fa
 
 }  // namespace
 
-Result<Bytes> EncodeJpegPixels(const std::string& path, const Image& image, int quality,
+Result<Bytes> EncodeJpegPixels(const std::string& path, const Samples8& picture, int quality,
                                RowGate* rows) {
   Memory memory;
   const auto failure = std::make_unique<Failure>();
-  if (!Compress(image, quality, rows, &memory, failure.get())) {
+  if (!Compress(picture, quality, rows, &memory, failure.get())) {
     return failure->manager.msg_code == JERR_OUT_OF_MEMORY
                ? OutOfMemory(path, "write it")
                : Expected(path, "a picture that libjpeg can write", failure->reason);

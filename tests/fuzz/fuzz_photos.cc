@@ -14,6 +14,7 @@
 #include <string>
 #include <string_view>
 
+#include "platform/gain_map.h"
 #include "platform/icc_profile.h"
 #include "platform/readers/decoding_memory.h"
 #include "platform/readers/depth_photo_file.h"
@@ -125,6 +126,18 @@ void CheckCaptions(const Metadata& metadata) {
   Must(!Contains(root, "well-formed"));
 }
 
+// Checks a gain map, and that the light of a small photo is finite and not negative.
+void CheckGain(const DepthPhoto& photo) {
+  const GainMap& map = photo.gain_map;
+  Must(map.levels.size() == map.row_levels() * size_t(map.height));
+  if (map.levels.empty()) return;
+  Must(!CheckGainMap("gain map", map));
+  if (photo.picture.pixels.size() > 1 << 16) return;
+  const DeepImage light = ApplyGainMap(photo.picture, map);
+  Must(light.samples.size() == photo.picture.pixels.size());
+  for (const uint16_t half : light.samples) Must(half < 0x7c00);
+}
+
 void CheckPhoto(const uint8_t* data, size_t size) {
   std::optional<MemoryBudget> budget(std::in_place, data, size);
   const Near near = size % 2 == 0 ? Near::kUnknown : Near::kWhite;
@@ -134,6 +147,7 @@ void CheckPhoto(const uint8_t* data, size_t size) {
   DepthPhoto& photo = *decoded;
   Must(!photo.picture.pixels.empty());
   CheckCaptions(photo.metadata);
+  CheckGain(photo);
   const Bytes& icc = photo.metadata.icc;
   Must(icc.empty() || IsRgbProfile(icc));
   if (photo.map.values.empty() && photo.matte.values.empty()) {
