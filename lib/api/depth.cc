@@ -101,7 +101,7 @@ void CheckCall(const DepthCall& call, bool repairs, const starfocus_disparity_ou
   const size_t needed = SizeOf(config, repairs, check);
   CheckMemory("workspace", call.workspace, call.bytes, needed, check);
   if (!check->passed()) return;
-  CheckViews(light_field, config.views, width, height, check);
+  CheckViews(light_field, config.views, width, height, false, check);
   CheckMap(map.disparity, map.disparity_stride, width, height, "map.disparity",
            "map.disparity_stride", check);
   if (repairs) CheckDepthMap(light_field.depth, width, height, check);

@@ -80,8 +80,9 @@ starfocus_status RefocusPreview(const FullParams& params, const Prepared& prepar
   const ReducedField& field = prepared.reduced[shift];
   reduced.input = InputOf(reduced.config, *reduced.kernels, field.views, field.disparity,
                           prepared.covers ? field.coverage : Plane<uint8_t>());
-  return RunCall(ReducedParams(params, rect), OutputOf(out, rect, reduced.odd_row), {}, nullptr,
-                 &reduced, report);
+  reduced.input.has_alpha = prepared.has_alpha;
+  return RunCall(ReducedParams(params, rect), OutputOf(reduced, out, rect), {}, nullptr, &reduced,
+                 report);
 }
 
 // Fields of params.previous that checks of light fields and pictures may reject.
@@ -127,6 +128,8 @@ void CheckPrevious(const EngineState& engine, const FullParams& params, const st
   const Rect rect = RegionOf(config, params);
   if (!check->passed()) return;
   check->Read(*params.previous, "previous.size", previous);
+  check->Need(!Has(config, STARFOCUS_FEATURE_DEEP), STARFOCUS_ERROR_FEATURE, {"previous"},
+              {"null with STARFOCUS_FEATURE_DEEP"});
   check->NotNull(previous->light_field, "previous.light_field");
   check->NotNull(previous->out, "previous.out");
   if (!check->passed()) return;
@@ -189,7 +192,7 @@ starfocus_status Refocus(const FullParams& params, const starfocus_light_field& 
   TakeArguments(params, light_field, prepared, to, engine, &previous, &check);
   if (!check.passed()) return check.status();
   const Input& in = engine->input;
-  Output out = OutputOf(to, RegionOf(engine->config, params), engine->odd_row);
+  Output out = OutputOf(*engine, to, RegionOf(engine->config, params));
   out.alpha = AlphaOf(in.images[0]);
   out.alpha_step = in.images[0].step;
   const starfocus_status status = RunCall(params, out, previous, &light_field, engine, report);

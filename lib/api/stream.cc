@@ -22,8 +22,8 @@ void CheckCount(const EngineState& engine, int32_t rows, const Allowed& allowed,
   check->In({"rows", double(rows)}, allowed);
 }
 
-// Checks the number of rows of a push or pull that starts at row `first`. YUV formats require pairs
-// of rows.
+// Checks the number of rows of a push or pull that starts at row `first`. Formats with chroma of
+// two rows require pairs of rows.
 void CheckPairs(const FullConfig& config, bool is_yuv, int32_t first, int32_t rows,
                 Checker* check) {
   check->Need(!is_yuv || (first % 2 == 0 && (rows % 2 == 0 || first + rows == config.height)),
@@ -33,7 +33,7 @@ void CheckPairs(const FullConfig& config, bool is_yuv, int32_t first, int32_t ro
 
 bool AnyYuv(const FullConfig& config, const starfocus_light_field& light_field) {
   for (int view = 0; view < config.views; ++view) {
-    if (IsYuv(light_field.views[view].format)) return true;
+    if (HasRowPairs(light_field.views[view].format)) return true;
   }
   return false;
 }
@@ -60,8 +60,13 @@ starfocus_status PushRows(const Input& from, int32_t rows, int32_t unit, EngineS
   const bool covers = from.given_coverage.data != nullptr;
   if (stream.pushed == 0) {
     stream.covers = covers;
-    Plane<uint8_t> views[STARFOCUS_MAX_VIEWS];
-    for (int view = 0; view < engine->config.views; ++view) views[view] = rings.View(view);
+    StoredViews views;
+    views.tables = rings.tables;
+    for (int view = 0; view < engine->config.views; ++view) {
+      if (rings.tables == nullptr) views.codes[view] = rings.View(view);
+      views.deep[view] = rings.deep[view];
+      views.deep_alpha[view] = rings.deep_alpha[view];
+    }
     engine->input = InputOf(engine->config, *engine->kernels, views, rings.disparity,
                             covers ? rings.coverage : Plane<uint8_t>());
   }
@@ -190,7 +195,7 @@ starfocus_status starfocus_stream_pull(starfocus_engine* engine, const starfocus
   const int32_t first = e.stream.written, left = e.config.height - first;
   const int32_t most = Min(rows, left);
   CheckOutput(e.config, *out, e.config.width, e.config.height, &check);
-  CheckPairs(e.config, IsYuv(out->format), first, most, &check);
+  CheckPairs(e.config, HasRowPairs(out->format), first, most, &check);
   if (check.passed() && most > 0) {
     Extents memory;
     memory.Add(Workspace(e));
@@ -198,7 +203,7 @@ starfocus_status starfocus_stream_pull(starfocus_engine* engine, const starfocus
   }
   if (!check.passed()) return check.status();
   const Plane<uint8_t>& alpha = e.rings.alpha;
-  Output output = OutputOf(*out, {0, first, e.config.width, left}, e.odd_row);
+  Output output = OutputOf(e, *out, {0, first, e.config.width, left});
   output.alpha = {alpha.data, alpha.stride, alpha.rows, 0};
   check.Add(PullRows(output, most, &e, written));
   if (check.passed()) WriteReport(e, report);

@@ -141,15 +141,20 @@ void CheckConfig(const FullConfig& config, Checker* check) {
               {"superblock", double(config.superblock)}, {"0, 32, 64, 128 or 256"});
   CheckTuning(config.tuning, check);
   constexpr uint32_t kFeatures = STARFOCUS_FEATURE_COVERAGE | STARFOCUS_FEATURE_STREAMING |
-                                 STARFOCUS_FEATURE_IMAGES | STARFOCUS_FEATURE_SHAPES;
+                                 STARFOCUS_FEATURE_IMAGES | STARFOCUS_FEATURE_SHAPES |
+                                 STARFOCUS_FEATURE_DEEP;
   check->Need((config.features & ~kFeatures) == 0, STARFOCUS_ERROR_RANGE,
               {"features", double(config.features)}, {"bits of STARFOCUS_FEATURE_"});
   check->In({"unknown", double(config.unknown)},
             {"a starfocus_unknown", 0, STARFOCUS_UNKNOWN_FILL});
   check->In({"previews", double(config.previews)}, STARFOCUS_FROM_TO(0, STARFOCUS_MAX_PREVIEW));
+  const bool deep = Has(config, STARFOCUS_FEATURE_DEEP);
   check->In({"transfer", double(config.transfer)},
-            {"a starfocus_transfer", 0, STARFOCUS_TRANSFER_NONE});
+            {deep ? "a starfocus_transfer" : "SRGB or NONE without STARFOCUS_FEATURE_DEEP", 0,
+             double(deep ? STARFOCUS_TRANSFER_HLG : STARFOCUS_TRANSFER_NONE)});
   check->In({"highlights", config.highlights}, STARFOCUS_FROM_TO(1, STARFOCUS_MAX_HIGHLIGHTS));
+  check->Need(!deep || config.highlights == 1, STARFOCUS_ERROR_FEATURE,
+              {"highlights", config.highlights}, {"1 with STARFOCUS_FEATURE_DEEP"});
 }
 
 void CheckParams(const FullConfig& config, const FullParams& params, Checker* check) {
@@ -215,7 +220,7 @@ int PlanesOfFormat(int32_t format) { return !IsYuv(format) ? 1 : IsPaired(format
 
 // Returns the number of rows of a plane of an image whose height is `height`.
 int32_t PlaneRows(int32_t format, int plane, int32_t height) {
-  return IsYuv(format) && plane != 0 ? (height + 1) / 2 : height;
+  return HasRowPairs(format) && plane != 0 ? (height + 1) / 2 : height;
 }
 
 // Returns the number of bytes of a row of a plane.
@@ -223,9 +228,10 @@ size_t PlaneRowBytes(const starfocus_image& image, int plane, int32_t width) {
   const auto pixels = static_cast<size_t>(width), samples = (pixels + 1) / 2;
   const int32_t given = image.pixel_stride, format = image.format;
   const auto step = static_cast<size_t>(given != 0 ? given : LeastStep(format));
-  if (!IsYuv(format)) return (pixels - 1) * step + (HasAlpha(format) ? 4 : 3);
-  if (plane == 0) return pixels;
-  return IsPaired(format) ? 2 * samples : (samples - 1) * step + 1;
+  const auto bytes = static_cast<size_t>(SampleBytes(format));
+  if (!IsYuv(format)) return (pixels - 1) * step + static_cast<size_t>(LeastStep(format));
+  if (plane == 0) return bytes * pixels;
+  return IsPaired(format) ? 2 * bytes * samples : (samples - 1) * step + 1;
 }
 
 Extent ExtentOfPlane(const starfocus_image& image, int plane, int32_t width, int32_t height) {
@@ -249,21 +255,34 @@ constexpr ImageNames kOutNames = {STARFOCUS_IMAGE_FIELDS("out.")};
 constexpr ImageNames kImageNames = {STARFOCUS_IMAGE_FIELDS("")};
 
 // Checks the format and the pixel_stride of an image.
-void CheckLayout(const starfocus_image& image, const ImageNames& names, int32_t index,
+void CheckLayout(const starfocus_image& image, bool deep, const ImageNames& names, int32_t index,
                  Checker* check) {
   check->In({names.format, double(image.format), index},
-            {"a starfocus_format", 0, STARFOCUS_FORMAT_YUV_420_888});
+            {deep ? "a starfocus_format" : "a format of 8 bits without STARFOCUS_FEATURE_DEEP", 0,
+             double(deep ? STARFOCUS_FORMAT_P210 : STARFOCUS_FORMAT_YUV_420_888)});
   if (!check->passed()) return;
   check->Need(ValidPixelStride(image.format, image.pixel_stride), STARFOCUS_ERROR_RANGE,
               {names.pixel_stride, double(image.pixel_stride), index},
               {"0, or a number of bytes that the format allows"});
+  check->Need(image.pixel_stride % SampleBytes(image.format) == 0, STARFOCUS_ERROR_RANGE,
+              {names.pixel_stride, double(image.pixel_stride), index},
+              {"a multiple of the size of a sample"});
+}
+
+// Checks that the samples of a plane of an image are aligned.
+void CheckSamples(const starfocus_image& image, int plane, const ImageNames& names, int32_t index,
+                  Checker* check) {
+  const auto bytes = static_cast<size_t>(SampleBytes(image.format));
+  check->Need(reinterpret_cast<uintptr_t>(image.planes[plane]) % bytes == 0, STARFOCUS_ERROR_STRIDE,
+              {names.planes, kNoNumber, index}, {"aligned to the type of the samples"});
+  check->Stride(image.strides[plane] % bytes == 0, names.strides, image.strides[plane], index);
 }
 
 // Checks an image, which is view `index` of a light field or an output picture.
-void CheckImage(const starfocus_image& image, int32_t width, int32_t height,
+void CheckImage(const starfocus_image& image, bool deep, int32_t width, int32_t height,
                 const ImageNames& names, int32_t index, Checker* check) {
   const int32_t format = image.format;
-  CheckLayout(image, names, index, check);
+  CheckLayout(image, deep, names, index, check);
   if (!check->passed()) return;
   if (IsYuv(format)) {
     check->In({names.matrix, double(image.matrix), index},
@@ -275,6 +294,7 @@ void CheckImage(const starfocus_image& image, int32_t width, int32_t height,
   for (int plane = 0; plane < PlanesOfFormat(format); ++plane) {
     check->NotNull(image.planes[plane], names.planes, index);
     const size_t stride = image.strides[plane];
+    CheckSamples(image, plane, names, index, check);
     check->Stride(
         ValidStride(stride, PlaneRowBytes(image, plane, width), PlaneRows(format, plane, height)),
         names.strides, stride, index);
@@ -291,10 +311,10 @@ void NeedInPlace(const starfocus_image& image, const ImageNames& names, int32_t 
 }  // namespace
 
 void CheckViews(const starfocus_light_field& light_field, int32_t count, int32_t width,
-                int32_t height, Checker* check) {
+                int32_t height, bool deep, Checker* check) {
   if (!check->passed()) return;
   for (int32_t view = 0; view < count; ++view) {
-    CheckImage(light_field.views[view], width, height, kViewNames, view, check);
+    CheckImage(light_field.views[view], deep, width, height, kViewNames, view, check);
   }
 }
 
@@ -340,11 +360,11 @@ void CheckInPlace(const FullConfig& config, const starfocus_light_field& light_f
 void CheckLightField(const FullConfig& config, const starfocus_light_field& light_field,
                      Checker* check) {
   const int32_t width = config.width, height = config.height;
-  CheckViews(light_field, config.views, width, height, check);
+  CheckViews(light_field, config.views, width, height, Has(config, STARFOCUS_FEATURE_DEEP), check);
   CheckBytes(light_field.coverage, light_field.coverage_stride, width, height, "coverage_stride",
              check);
   CheckDepthMap(light_field.depth, width, height, check);
-  if (!Has(config, STARFOCUS_FEATURE_IMAGES)) CheckInPlace(config, light_field, true, check);
+  if (!ReadsImages(config)) CheckInPlace(config, light_field, true, check);
 }
 
 void AddDepthMap(const starfocus_depth_map& map, Extents* extents) {
@@ -372,8 +392,8 @@ void AddImage(const starfocus_image& image, int32_t width, int32_t height, Exten
 
 void CheckOutput(const FullConfig& config, const starfocus_image& image, int32_t width,
                  int32_t height, Checker* check) {
-  CheckImage(image, width, height, kOutNames, 0, check);
-  if (!Has(config, STARFOCUS_FEATURE_IMAGES)) NeedInPlace(image, kOutNames, 0, check);
+  CheckImage(image, Has(config, STARFOCUS_FEATURE_DEEP), width, height, kOutNames, 0, check);
+  if (!ReadsImages(config)) NeedInPlace(image, kOutNames, 0, check);
 }
 
 void CheckOutputApart(const starfocus_image& image, int32_t width, int32_t height,
@@ -416,7 +436,7 @@ starfocus_status starfocus_plane_size(const starfocus_image* image, int32_t plan
   check.NotNull(row_bytes, "row_bytes");
   CheckSize(width, height, &check);
   if (!check.passed()) return check.status();
-  CheckLayout(*image, kImageNames, 0, &check);
+  CheckLayout(*image, true, kImageNames, 0, &check);
   if (!check.passed()) return check.status();
   check.In({"plane", double(plane)}, STARFOCUS_FROM_TO(0, 2));
   if (!check.passed()) return check.status();

@@ -72,9 +72,9 @@ void CheckBytes(const uint8_t* plane, size_t stride, int32_t width, int32_t heig
 // width x height.
 void CheckRegion(const starfocus_region& region, int32_t width, int32_t height, Checker* check);
 
-// Checks `count` views of a picture of width x height.
+// Checks `count` views of a picture of width x height, whose formats may be deep if `deep` is true.
 void CheckViews(const starfocus_light_field& light_field, int32_t count, int32_t width,
-                int32_t height, Checker* check);
+                int32_t height, bool deep, Checker* check);
 
 // Checks the depth map of a picture of width x height.
 void CheckDepthMap(const starfocus_depth_map& map, int32_t width, int32_t height, Checker* check);

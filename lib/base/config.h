@@ -27,6 +27,11 @@ inline bool Has(const starfocus_config& config, uint32_t feature) {
   return (config.features & feature) != 0;
 }
 
+// Returns true if pictures and maps may have any format.
+inline bool ReadsImages(const starfocus_config& config) {
+  return (config.features & (STARFOCUS_FEATURE_IMAGES | STARFOCUS_FEATURE_DEEP)) != 0;
+}
+
 // Return the limits of disparities in float, the type of the values in depth maps.
 inline float MinDisparity(const starfocus_config& config) {
   return static_cast<float>(config.disparity_min);

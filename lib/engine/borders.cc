@@ -73,16 +73,17 @@ Borders AddBorders(const FullConfig& config, double max_blur, bool deblocks) {
                            ? 0
                            : LargestMove(config) + CapturedBorder(0);
   borders.views = Max(borders.views, borders.centre + read);
-  if (config.highlights > 1) {
-    // The border for highlights affects how superblocks are split, and therefore the bytes of the
-    // output. This border is slightly larger than the distance by which blur and disparity move
-    // highlights.
+  const bool deep = Has(config, STARFOCUS_FEATURE_DEEP);
+  if (config.highlights > 1 || deep) {
+    // The border for highlights is slightly larger than the distance by which blur and disparity
+    // move highlights.
     borders.highlights =
         ToWholeCells(reach + kUpsampleBorder[2]) + 5 * kCellSize + blur + LargestMove(config);
+  }
+  if (config.highlights > 1) {
     borders.views = Max(borders.views, borders.highlights + LampRadius(LargestLamp(config.width)));
   }
-  borders.streamed =
-      borders.views + (Has(config, STARFOCUS_FEATURE_IMAGES) ? borders.views % 2 : 0);
+  borders.streamed = borders.views + (ReadsImages(config) ? borders.views % 2 : 0);
   return borders;
 }
 

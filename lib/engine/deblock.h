@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "lib/base/geometry.h"
+#include "lib/io/output.h"
 #include "simd/kernels.h"
 #include "simd/light.h"
 
@@ -38,7 +39,7 @@ struct LayerMap {
 // A stripe to deblock.
 struct Deblocking {
   const LayerMap* map;
-  Plane<uint8_t> out;     // Rows of the picture.
+  PictureRows out;        // Rows of the picture.
   int32_t width, height;  // Size of the picture.
   int32_t y;              // First row of the stripe.
   int32_t beta;           // Limit beta of equations (16) and (17), in codes.

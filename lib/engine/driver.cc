@@ -29,12 +29,12 @@ void StoreChanged(const Output& out, const Plane<uint8_t>& from, int32_t y,
   }
 }
 
-starfocus_status Store(const Output& out, const Range& rows, const Plane<uint8_t>& from,
+starfocus_status Store(const Output& out, const Range& rows, const PictureRows& from,
                        EngineState* engine) {
   if (engine->stripe.changes.before == nullptr) {
     return StoreRows(out, rows, from, MaxJobs(engine->config), engine->jobs);
   }
-  for (int32_t y = rows.first; y < rows.last; ++y) StoreChanged(out, from, y, *engine);
+  for (int32_t y = rows.first; y < rows.last; ++y) StoreChanged(out, from.codes, y, *engine);
   return STARFOCUS_OK;
 }
 
@@ -61,7 +61,7 @@ starfocus_status ReadRows(const Range& rows, const Plane<int16_t>* disparity, En
   const FullConfig& config = engine->config;
   const Input& in = engine->input;
   const bool has_map = in.map.map.data != nullptr;
-  const bool converts = in.converts_centre && disparity != nullptr;
+  const bool converts = (in.converts_centre || in.deep != nullptr) && disparity != nullptr;
   if (rows.first >= rows.last || !(has_map || converts)) return STARFOCUS_OK;
   const int32_t jobs =
       Min(MaxJobs(config), (rows.last - rows.first + kRowsAtOnce - 1) / kRowsAtOnce);
@@ -72,7 +72,7 @@ starfocus_status ReadRows(const Range& rows, const Plane<int16_t>* disparity, En
       const Range group = {y, Min(y + kRowsAtOnce, part.last)};
       if (!scratch.cancel.Spend(int64_t{4} * config.width * (group.last - y))) return;
       for (int32_t row = y; converts && row < group.last; ++row) {
-        ReadView(in, 0, row, engine->rings.View(0).Row(row));
+        ConvertRow(in, row, false, engine->rings);
       }
       if (!has_map) continue;
       scratch.counts.converted_pixels += PixelsIn(config.width, group.count());

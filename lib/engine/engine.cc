@@ -4,6 +4,7 @@
 #include <cstring>
 #include <new>
 
+#include "lib/io/deep.h"
 #include "lib/optics/rules.h"
 
 namespace starfocus {
@@ -85,6 +86,16 @@ Scratch TakeScratch(const FullConfig& config, Arena* arena) {
   return scratch;
 }
 
+void TakePictureRows(size_t width, int32_t rows, bool deep, Arena* arena, PictureRows* out) {
+  *out = {};
+  if (deep) {
+    out->deep = TakePlane<uint16_t>(3 * width, rows, arena);
+    out->alpha = TakePlane<uint16_t>(width, rows, arena);
+  } else {
+    out->codes = TakePlane<uint8_t>(3 * width, rows, arena);
+  }
+}
+
 void TakeRows(const FullConfig& config, Arena* arena, EngineState* engine) {
   const auto width = static_cast<size_t>(config.width);
   const bool streaming = Has(config, STARFOCUS_FEATURE_STREAMING);
@@ -92,11 +103,18 @@ void TakeRows(const FullConfig& config, Arena* arena, EngineState* engine) {
   const int32_t rows = config.superblock + 2 * (streaming ? borders.streamed : borders.centre);
   // The last rows of a stripe are written together with the next stripe.
   TakeInput(config, rows, rows + config.superblock + kDeblockRows, arena, &engine->rings);
-  engine->stripe.out =
-      arena->Take<uint8_t>(3 * width, static_cast<size_t>(config.superblock + kDeblockRows));
-  engine->stripe.last_rows = streaming ? arena->Take<uint8_t>(3 * width, kDeblockRows) : nullptr;
-  const bool images = Has(config, STARFOCUS_FEATURE_IMAGES);
-  engine->odd_row = images ? arena->Take<uint8_t>(3 * width) : nullptr;
+  engine->rings.tables = engine->deep;
+  const int32_t out_rows = config.superblock + kDeblockRows;
+  const bool deep = Has(config, STARFOCUS_FEATURE_DEEP);
+  TakePictureRows(width, out_rows, deep, arena, &engine->stripe.out);
+  engine->stripe.last_rows = {};
+  if (streaming) TakePictureRows(width, kDeblockRows, deep, arena, &engine->stripe.last_rows);
+  const size_t odd_bytes = (deep ? 6 : 3) * width;
+  engine->odd_row = ReadsImages(config) ? arena->Take<uint8_t>(odd_bytes) : nullptr;
+  engine->dithered = engine->dithered_alpha = {};
+  if (!deep) return;
+  engine->dithered = TakePlane<uint8_t>(3 * width, out_rows, arena);
+  engine->dithered_alpha = TakePlane<uint8_t>(width, out_rows, arena);
 }
 
 // Allocates what does not depend on the size of the picture: pieces of memory that the pictures of
@@ -114,11 +132,14 @@ void TakeShared(const FullConfig& config, Arena* arena, EngineMemory* memory) {
     scratch[worker].cancel = CancelToken(&memory->jobs.call_progress);
   }
   memory->engine.scratch = scratch;
+  const bool deep = Has(config, STARFOCUS_FEATURE_DEEP);
+  memory->engine.deep = deep ? arena->Take<DeepTables>(1) : nullptr;
 }
 
 void TakePicture(const FullConfig& config, Arena* arena, EngineState* engine) {
   TakeRows(config, arena, engine);
   TakeLayers(config, arena, &engine->layers);
+  TakePassLayers(config, arena, engine);
   const Borders borders = LargestBorders(config);
   TakeCoverage(config, borders.matting, arena, &engine->stripe.coverage);
   TakeRims(config, borders.layer[0], arena, &engine->stripe.rims);
@@ -163,7 +184,33 @@ size_t LayOut(const FullConfig& config, void* base, EngineState** engine,
   made.memory = &memory;
   made.bytes = arena.Bytes();
   *engine = base == nullptr ? nullptr : &made;
+  if (base != nullptr && made.deep != nullptr) FillDeepTables(config.transfer, made.deep);
   return made.bytes;
+}
+
+Output OutputOf(const EngineState& engine, const starfocus_image& image, const Rect& rect) {
+  return {&simd::BestImageKernels(),
+          engine.deep,
+          PlanesOf<uint8_t>(image),
+          rect,
+          engine.dithered,
+          engine.dithered_alpha,
+          engine.odd_row,
+          {},
+          1};
+}
+
+Input InputOf(const EngineState& engine, Pass pass, const Scratch& scratch) {
+  Input in = pass == kAlphaPass ? DeepAlphaOf(engine.input)
+             : engine.input.deep != nullptr
+                 ? DeepExcessOf(engine.input, engine.stripe.excess_shift)
+                 : ExcessOf(engine.input, engine.config.highlights, scratch.lamp_lengths);
+  in.captured = &engine.input;
+  for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
+    const Plane<int16_t>& from = engine.pass_layers[pass][layer].samples;
+    in.layers[layer] = {from.data, from.stride, from.rows, from.first};
+  }
+  return in;
 }
 
 EngineState PreviewEngine(const FullConfig& config, EngineState* engine) {

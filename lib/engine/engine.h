@@ -18,6 +18,7 @@
 #include "lib/io/highlights.h"
 #include "lib/io/input.h"
 #include "lib/io/layers.h"
+#include "lib/io/output.h"
 #include "lib/matting/coverage.h"
 #include "lib/matting/rims.h"
 #include "lib/plan/cells.h"
@@ -127,12 +128,17 @@ struct StripeState {
   LayerMap map;       // Layer of each smallest block, for deblocking.
   FrameDiff changes;  // Superblocks that differ from the previous light field.
   // Output: the last kDeblockRows rows of the previous stripe, and the stripe, packed.
-  uint8_t* out;
+  PictureRows out;
   // With streaming: the last kDeblockRows rows of the previous stripe, saved when that stripe was
   // finished. Null without streaming, because a failed call is not resumed and the last rows can
   // stay in `out`.
-  uint8_t* last_rows;
+  PictureRows last_rows;
+  int32_t excess_shift = 0;  // Of deep pictures: Input::excess_shift of the blocks.
 };
+
+// What a block is refocused for. Light up to white comes first. Excess, which is the light beyond
+// white, and alpha are refocused in the same way, where there are any.
+enum Pass { kLightPass, kExcessPass, kAlphaPass, kPassCount };
 
 // Progress of a streamed refocusing, in rows.
 struct Stream {
@@ -161,6 +167,7 @@ struct EngineState {
   Tables* tables;
   Jobs* jobs;                  // Runs the jobs; has room for MaxJobs jobs.
   Scratch* scratch = nullptr;  // Scratch memory of each worker.
+  DeepTables* deep = nullptr;  // Null without STARFOCUS_FEATURE_DEEP.
   // Memory of the engine, its size, and the part that TakePicture divides into pieces.
   EngineMemory* memory = nullptr;
   size_t bytes = 0;
@@ -169,7 +176,9 @@ struct EngineState {
   // memory.
   starfocus_allocator allocator = {};
   InputRings rings;
-  uint8_t* odd_row = nullptr;  // With images: see Output::odd_row.
+  // See Output. With images.
+  uint8_t* odd_row = nullptr;
+  Plane<uint8_t> dithered, dithered_alpha;
 
   // The following members are valid until the next call of starfocus_set_callbacks, like the runner
   // and the progress function in `jobs`.
@@ -179,12 +188,19 @@ struct EngineState {
   Lens lens;
   Input input;
   StripeLayers layers;
+  LayerPlane pass_layers[kPassCount][STARFOCUS_LAYERS];  // Layers of the excess and the alpha.
   Stream stream;
   FullReport report;
 
   // The following member is valid for one stripe.
   StripeState stripe;
 };
+
+// Returns an output of the engine to `image`, which must be valid, without alpha.
+Output OutputOf(const EngineState& engine, const starfocus_image& image, const Rect& rect);
+
+// Returns the input of a pass other than kLightPass. `scratch` provides the memory of highlights.
+Input InputOf(const EngineState& engine, Pass pass, const Scratch& scratch);
 
 // Starts to compare the engine's input, the light field `now` of the caller, with the previous
 // frame. The lens must be set.
@@ -215,6 +231,9 @@ void TakeResample(const FullConfig& config, Arena* arena, ResampleScratch* resam
 
 // Allocates the planes of layers 1 and 2 around a stripe, and the marks of their columns.
 void TakeLayers(const FullConfig& config, Arena* arena, StripeLayers* layers);
+
+// Allocates the layers of the passes after kLightPass.
+void TakePassLayers(const FullConfig& config, Arena* arena, EngineState* engine);
 
 // Allocates the cells and blocks of a stripe, and the map of their layers.
 void TakePlan(const FullConfig& config, Arena* arena, StripeState* stripe);

@@ -5,6 +5,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/engine/stripe.h"
+#include "lib/io/deep.h"
 #include "lib/optics/view_set.h"
 
 namespace starfocus {
@@ -88,29 +89,65 @@ void AddLight(const int16_t* light, size_t samples, bool is_first, uint32_t* sum
 // The functions below reduce the pixels of `part`, the rows of a stripe in one column of
 // superblocks, and return false after cancellation.
 
+// Stores the means of blocks of a row of a view: of light, of excess in units of deep codes, and of
+// alpha. The last two are null if the views are codes.
+void StoreMeans(const Prepared& prepared, const EngineState& engine, int view, int shift,
+                const Rect& part, int32_t y, const int16_t* const (&means)[kPassCount]) {
+  const StoredViews& views = prepared.reduced[shift].views;
+  const auto count = static_cast<size_t>(ReducedSize(part.width, shift));
+  const ptrdiff_t x = part.x >> shift;
+  if (engine.input.deep == nullptr) {
+    engine.kernels->Encode(means[kLightPass], 3 * count, *engine.input.transfer,
+                           views.codes[view].Row(y >> shift) + 3 * x);
+    return;
+  }
+  uint16_t* const rgb = views.deep[view].Row(y >> shift) + 3 * x;
+  uint16_t* const alpha = views.deep_alpha[view].Row(y >> shift) + x;
+  for (size_t n = 0; n < 3 * count; ++n) {
+    const int32_t light = means[kLightPass][n] + (means[kExcessPass][n] << kExcessBits);
+    rgb[n] = DeepOfLight(light);
+    alpha[n / 3] = static_cast<uint16_t>(means[kAlphaPass][n]);
+  }
+}
+
 // Reduces a view to all sizes of previews.
 bool ReduceView(const Prepared& prepared, const EngineState& engine, int view, const Rect& part,
                 Scratch* scratch) {
-  const simd::Encoding& encoding = *engine.input.transfer;
-  const int32_t previews = prepared.config.previews;
+  const int32_t previews = prepared.config.previews, side = engine.config.superblock;
   const size_t samples = 3 * static_cast<size_t>(part.width);
-  // Both share the memory of a superblock. The space between them is larger than a row of light,
+  const bool deep = engine.input.deep != nullptr;
+  const int passes = deep ? kPassCount : 1;
+  Input others[kPassCount];
+  if (deep) {
+    others[kExcessPass] = DeepExcessOf(engine.input, 0);
+    others[kAlphaPass] = DeepAlphaOf(engine.input);
+  }
+  // All share the memory of a superblock. The space between them is larger than a row of light,
   // because Input::Light may write beyond the last sample.
   int16_t* const light = scratch->picture_samples;
-  int16_t* const mean = light + 6 * engine.config.superblock;
+  int16_t* means[kPassCount];
+  for (int pass = 0; pass < kPassCount; ++pass) means[pass] = light + (pass + 2) * 3 * side;
   for (int32_t y = part.y; y < part.y + part.height; ++y) {
-    if (!scratch->cancel.Spend(static_cast<int64_t>(samples) * (1 + previews))) return false;
-    engine.input.Light(view, part.x, y, part.width, light);
+    if (!scratch->cancel.Spend(static_cast<int64_t>(samples) * passes * (1 + previews))) {
+      return false;
+    }
+    for (int pass = 0; pass < passes; ++pass) {
+      const Input& in = pass == kLightPass ? engine.input : others[pass];
+      in.Light(view, part.x, y, part.width, light);
+      for (int shift = 1; shift <= previews; ++shift) {
+        // Each size and pass has its own row of sums, because it completes blocks after other rows.
+        uint32_t* const sums = scratch->sums + 3 * (shift * kPassCount + pass) * side;
+        AddLight(light, samples, (y & ((1 << shift) - 1)) == 0, sums);
+      }
+    }
     for (int shift = 1; shift <= previews; ++shift) {
-      // Each size has its own row of sums, because it completes blocks after other rows.
-      uint32_t* const sums = scratch->sums + 3 * shift * engine.config.superblock;
       const int32_t row = y & ((1 << shift) - 1);
-      AddLight(light, samples, row == 0, sums);
       if (row + 1 < 1 << shift && y + 1 < engine.config.height) continue;
-      MeanOfBlocks(sums, part.width, row + 1, shift, mean);
-      engine.kernels->Encode(
-          mean, 3 * static_cast<size_t>(ReducedSize(part.width, shift)), encoding,
-          prepared.reduced[shift].views[view].Row(y >> shift) + 3 * (part.x >> shift));
+      for (int pass = 0; pass < passes; ++pass) {
+        MeanOfBlocks(scratch->sums + 3 * (shift * kPassCount + pass) * side, part.width, row + 1,
+                     shift, means[pass]);
+      }
+      StoreMeans(prepared, engine, view, shift, part, y, means);
     }
   }
   return true;
@@ -222,7 +259,12 @@ void TakeReduced(const FullConfig& config, int shift, Arena* arena, ReducedField
   const auto width = static_cast<size_t>(ReducedSize(config.width, shift));
   const int32_t height = ReducedSize(config.height, shift);
   for (int view = 0; view < config.views; ++view) {
-    field->views[view] = TakePlane<uint8_t>(3 * width, height, arena);
+    if (Has(config, STARFOCUS_FEATURE_DEEP)) {
+      field->views.deep[view] = TakePlane<uint16_t>(3 * width, height, arena);
+      field->views.deep_alpha[view] = TakePlane<uint16_t>(width, height, arena);
+    } else {
+      field->views.codes[view] = TakePlane<uint8_t>(3 * width, height, arena);
+    }
   }
   field->disparity = TakePlane<int16_t>(width, height, arena);
   if (!Has(config, STARFOCUS_FEATURE_COVERAGE)) return;
@@ -316,6 +358,7 @@ starfocus_status Prepare(void* memory, EngineState* engine, Prepared** prepared)
   Prepared* made = nullptr;
   LayOutPrepared(engine->config, memory, &made);
   made->covers = engine->input.given_coverage.data != nullptr;
+  made->has_alpha = engine->input.has_alpha;
   status = MakePlanes(*made, *engine);
   ForgetLayers(engine->config, &engine->layers);
   if (status != STARFOCUS_OK) return status;
@@ -329,7 +372,8 @@ bool Fits(const Prepared& prepared, const FullConfig& config) {
   const FullConfig& made = prepared.config;
   return made.width == config.width && made.height == config.height && SameViews(made, config) &&
          made.disparity_min == config.disparity_min && made.disparity_max == config.disparity_max &&
-         made.tuning.max_layer == config.tuning.max_layer && made.transfer == config.transfer;
+         made.tuning.max_layer == config.tuning.max_layer && made.transfer == config.transfer &&
+         Has(made, STARFOCUS_FEATURE_DEEP) == Has(config, STARFOCUS_FEATURE_DEEP);
 }
 
 Extent PreparedMemory(const Prepared& prepared) {

@@ -25,7 +25,7 @@ Rect ReducedRect(const Rect& rect, int shift);
 // Copy of a prepared light field at 1/2^shift of its size. Each pixel represents a block of 2^shift
 // by 2^shift pixels, or the part of the block inside the picture.
 struct ReducedField {
-  Plane<uint8_t> views[STARFOCUS_MAX_VIEWS];  // 8-bit samples (codes) of all rows.
+  StoredViews views;         // All rows.
   Plane<int16_t> disparity;  // In fixed point (kDisparityBits), in pixels of the reduced picture.
   Plane<uint8_t> coverage;   // Null: the configuration has no coverage.
 };
@@ -42,6 +42,7 @@ struct Prepared {
   FullConfig config;
   starfocus_light_field light_field;
   bool covers = false;       // True if the light field has coverage.
+  bool has_alpha = false;    // True if a view has alpha that is refocused.
   Plane<int16_t> disparity;  // Disparities of all rows.
   // Samples of all rows of layers 1 to config.tuning.max_layer.
   Plane<int16_t> layers[STARFOCUS_LAYERS];

@@ -12,7 +12,7 @@ namespace {
 // Deblocks the boundaries between blocks of different layers: first boundaries between rows, with
 // one job per column of superblocks, then boundaries between columns, with one job per
 // kSmallestBlock finished rows.
-starfocus_status Deblock(const Range& stripe, const Plane<uint8_t>& out, EngineState* engine) {
+starfocus_status Deblock(const Range& stripe, const PictureRows& out, EngineState* engine) {
   const FullConfig& config = engine->config;
   const Deblocking deblocking = {&engine->stripe.map,    out,
                                  config.width,           config.height,
@@ -57,8 +57,7 @@ starfocus_status FindMixedPixels(const Range& stripe, EngineState* engine) {
   return FindRims(config, engine->input, around(lens.borders.layer[0]), engine->jobs, &state.rims);
 }
 
-starfocus_status RefocusPhases(const Range& stripe, const Plane<uint8_t>& out,
-                               EngineState* engine) {
+starfocus_status RefocusPhases(const Range& stripe, const PictureRows& out, EngineState* engine) {
   const FullConfig& config = engine->config;
   const Lens& lens = engine->lens;
   starfocus_status status = FindMixedPixels(stripe, engine);
@@ -67,6 +66,7 @@ starfocus_status RefocusPhases(const Range& stripe, const Plane<uint8_t>& out,
     PlaceLayers(stripe, lens.borders, engine);
     status = FillLayers(kAllLayers, nullptr, engine);
   }
+  if (status == STARFOCUS_OK && IsBlockMode(lens)) status = FillPassLayers(stripe, engine);
   if (status != STARFOCUS_OK) return status;
   const StripePlan& plan = engine->stripe.plan;
   // Blocks with the largest predicted time come first, so that no worker starts a long block when
@@ -94,21 +94,40 @@ int32_t FinishedRows(const FullConfig& config, int32_t y) {
   return end >= config.height ? config.height : end - kDeblockRows;
 }
 
-Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y) {
-  return {engine.stripe.out, 3 * static_cast<size_t>(engine.config.width), 0, y - kDeblockRows};
+PictureRows BufferRows(const EngineState& engine, int32_t y) {
+  PictureRows rows = engine.stripe.out;
+  rows.codes.first = rows.deep.first = rows.alpha.first = y - kDeblockRows;
+  return rows;
 }
+
+namespace {
+
+// Copies the last kDeblockRows rows of a stripe to the row `to_row` of `to`, from row `from_row`.
+void CopyLastRows(const PictureRows& from, int32_t from_row, const PictureRows& to,
+                  int32_t to_row) {
+  const auto copy = [&](const auto& source, const auto& target) {
+    if (source.data == nullptr) return;
+    std::memcpy(target.Row(to_row), source.Row(from_row),
+                kDeblockRows * source.stride * sizeof(*source.data));
+  };
+  copy(from.codes, to.codes);
+  copy(from.deep, to.deep);
+  copy(from.alpha, to.alpha);
+}
+
+}  // namespace
 
 starfocus_status RefocusStripe(EngineState* engine, int32_t y) {
   const RedZones zones(*engine);
   const FullConfig& config = engine->config;
   const Range stripe = {y, Min(y + config.superblock, config.height)};
-  const Plane<uint8_t> rows = BufferRows(*engine, y);
-  uint8_t* const ends = rows.Row(y + config.superblock - kDeblockRows);
-  uint8_t* const last_rows = engine->stripe.last_rows;
-  const size_t bytes = kDeblockRows * rows.stride;
+  const PictureRows rows = BufferRows(*engine, y);
+  const int32_t ends = y + config.superblock - kDeblockRows;
+  const PictureRows& saved = engine->stripe.last_rows;
+  const bool saves = saved.codes.data != nullptr || saved.is_deep();
   // Deblocking may change the last rows of the previous stripe. A retry after a failure starts from
   // the saved rows.
-  std::memcpy(rows.Row(y - kDeblockRows), last_rows != nullptr ? last_rows : ends, bytes);
+  CopyLastRows(saves ? saved : rows, saves ? 0 : ends, rows, y - kDeblockRows);
   const FullReport report = engine->report;
   if (!ChooseColumns(stripe, engine)) {
     // No block of the current stripe is refocused, so the next stripe deblocks no boundary with the
@@ -130,7 +149,7 @@ starfocus_status RefocusStripe(EngineState* engine, int32_t y) {
   // The next stripe deblocks its boundary with the last blocks of this stripe.
   const LayerMap& map = engine->stripe.map;
   std::memcpy(map.layers, &map.At(0, map.rows - 1), static_cast<size_t>(map.columns));
-  if (last_rows != nullptr) std::memcpy(last_rows, ends, bytes);
+  if (saves) CopyLastRows(rows, ends, saved, 0);
   return STARFOCUS_OK;
 }
 

@@ -14,14 +14,12 @@
 
 namespace starfocus {
 
-struct Output;
-
 // Returns the grid of the views that the block is rendered from. `weights` is memory for the
 // weights of an aperture with a cat's eye: FullApertureSize(N) elements.
 ViewGrid ViewGridOf(const EngineState& engine, const Block& block, uint16_t* weights);
 
 // Writes the rectangle of the block to `out` and adds the block to scratch->counts.
-void RefocusBlock(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
+void RefocusBlock(const EngineState& engine, const Block& block, const PictureRows& out,
                   Scratch* scratch);
 
 // Clears the marks of the columns to subsample, for a new stripe. Keeps the old marks as the marks
@@ -47,6 +45,10 @@ inline constexpr Range kAllLayers = {1, STARFOCUS_LAYERS};
 // STARFOCUS_ERROR_CANCELLED.
 starfocus_status FillLayers(const Range& layers, const LayerPlane* layer_one, EngineState* engine);
 
+// Computes the marked columns of the layers of the passes after kLightPass, for the rows of the
+// stripe, if any block needs them. Also sets stripe.excess_shift. Returns as FillLayers.
+starfocus_status FillPassLayers(const Range& stripe, EngineState* engine);
+
 // Marks the columns of superblocks to refocus, and the columns whose cells must be measured to plan
 // these superblocks. Returns false if no column has to be refocused.
 bool ChooseColumns(const Range& rows, EngineState* engine);
@@ -61,7 +63,7 @@ int32_t FinishedRows(const FullConfig& config, int32_t y);
 
 // Returns the output buffer for the stripe at row y. The buffer also contains the rows above the
 // stripe that the stripe may still change.
-Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y);
+PictureRows BufferRows(const EngineState& engine, int32_t y);
 
 // Refocuses the part of the stripe at row y that affects the region of the lens, into BufferRows.
 // `y` must be a multiple of the superblock size, and stripes must be refocused in order. The

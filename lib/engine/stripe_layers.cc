@@ -19,10 +19,30 @@ void DownsampleColumn(const EngineState& engine, const LayerPlane* layer_one, in
   // The last column of superblocks includes the pixels of a layer that lie beyond the picture.
   const int32_t end = index + 1 == Columns(engine.config) ? missing.width : begin + side;
   if (layer_one != nullptr) {
-    DownsampleLayer(*engine.kernels, *layer_one, {begin, end}, scratch, missing);
+    DownsampleLayer(*engine.kernels, *layer_one, kDownFilter, {begin, end}, scratch, missing);
   } else {
     DownsamplePicture(*engine.kernels, engine.input, layer, {begin, end}, scratch, missing);
   }
+}
+
+// Subsamples a pass into column `index` of superblocks of its layers.
+void DownsamplePass(const EngineState& engine, Pass pass, int32_t index, const Scratch& scratch) {
+  const Input in = InputOf(engine, pass, scratch);
+  for (int32_t layer = 1; layer <= engine.config.tuning.max_layer; ++layer) {
+    if ((engine.layers.needed[layer][index] & kNeeded) == 0) continue;
+    const LayerPlane& plane = engine.pass_layers[pass][layer];
+    const int32_t side = engine.config.superblock >> layer, begin = index * side;
+    const int32_t end = index + 1 == Columns(engine.config) ? plane.width : begin + side;
+    DownsamplePicture(*engine.kernels, in, layer, {begin, end}, scratch.resample, plane);
+  }
+}
+
+bool NeedsPass(const EngineState& engine, Pass pass) {
+  const StripePlan& plan = engine.stripe.plan;
+  for (int32_t k = 0; k < plan.used; ++k) {
+    if (plan.blocks[k].passes[pass]) return true;
+  }
+  return false;
 }
 
 bool AnyColumn(const uint8_t* needed, int32_t columns) {
@@ -54,6 +74,21 @@ void TakeLayers(const FullConfig& config, Arena* arena, StripeLayers* layers) {
   }
   for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
     layers->needed[layer] = arena->Take<uint8_t>(static_cast<size_t>(Columns(config)));
+  }
+}
+
+void TakePassLayers(const FullConfig& config, Arena* arena, EngineState* engine) {
+  const bool deep = Has(config, STARFOCUS_FEATURE_DEEP);
+  for (int pass = kExcessPass; pass < kPassCount; ++pass) {
+    for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
+      LayerPlane& plane = engine->pass_layers[pass][layer];
+      plane = {};
+      plane.width = LayerSize(config.width, layer);
+      plane.height = LayerSize(config.height, layer);
+      if (!deep && (pass != kExcessPass || config.highlights <= 1)) continue;
+      plane.samples =
+          TakePlane<int16_t>(3 * static_cast<size_t>(plane.width), LayerRows(config, layer), arena);
+    }
   }
 }
 
@@ -117,6 +152,28 @@ starfocus_status FillLayers(const Range& layers, const LayerPlane* layer_one, En
   return ForEach(columns, engine->jobs, [&](int32_t column, int32_t worker) {
     for (int32_t layer = layers.first; layer < layers.last; ++layer) {
       DownsampleColumn(*engine, layer_one, layer, column, engine->scratch[worker].resample);
+    }
+  });
+}
+
+starfocus_status FillPassLayers(const Range& stripe, EngineState* engine) {
+  bool needs[kPassCount] = {};
+  for (int pass = kExcessPass; pass < kPassCount; ++pass) {
+    needs[pass] = NeedsPass(*engine, static_cast<Pass>(pass));
+    if (!needs[pass]) continue;
+    for (int layer = 1; layer <= engine->config.tuning.max_layer; ++layer) {
+      LayerPlane& plane = engine->pass_layers[pass][layer];
+      const int32_t beyond = engine->lens.borders.layer[layer];
+      plane.rows = {Max(0, (stripe.first >> layer) - beyond),
+                    Min(plane.height, ((stripe.last + (1 << layer) - 1) >> layer) + beyond)};
+      plane.samples.first = plane.rows.first;
+    }
+  }
+  if (!needs[kExcessPass] && !needs[kAlphaPass]) return STARFOCUS_OK;
+  return ForEach(Columns(engine->config), engine->jobs, [&](int32_t column, int32_t worker) {
+    for (int pass = kExcessPass; pass < kPassCount; ++pass) {
+      if (!needs[pass]) continue;
+      DownsamplePass(*engine, static_cast<Pass>(pass), column, engine->scratch[worker]);
     }
   });
 }

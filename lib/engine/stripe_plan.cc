@@ -22,10 +22,37 @@ int32_t LargestSide(const EngineState& engine) {
   return IsBenchmark(lens) ? Min(largest, lens.renderer->benchmark_side) : largest;
 }
 
-// Returns true if blocks in `rect` may show light of highlights beyond white.
-bool ShowsHighlights(const EngineState& engine, const Rect& rect) {
-  return engine.config.highlights > 1 &&
-         HasHighlights(engine.input, rect, engine.lens.borders.highlights);
+// Returns the sum of the tiles whose pixels blocks in `rect` may show. Rows beyond the border of
+// the stripe are not stored.
+LightTile TilesAround(const EngineState& engine, const Rect& rect) {
+  constexpr int32_t kColumns = LightTile::kTileColumns;
+  const Borders& borders = engine.lens.borders;
+  const int32_t reach = borders.highlights, down = Min(reach, borders.centre);
+  const int32_t first = Max(0, rect.x - reach) / kColumns;
+  const int32_t last = (Min(engine.config.width, rect.x + rect.width + reach) - 1) / kColumns;
+  const int32_t bottom = Min(engine.config.height, rect.y + rect.height + down);
+  LightTile sum = {0, 0};
+  for (int32_t y = Max(0, rect.y - down); y < bottom; ++y) {
+    for (int32_t tile = first; tile <= last; ++tile) sum.Add(engine.rings.tiles.Row(y)[tile]);
+  }
+  return sum;
+}
+
+// Sets the passes of blocks in `rect`.
+void FindPasses(const EngineState& engine, const Rect& rect, Block* blocks, int32_t count) {
+  bool excess = false, alpha = false;
+  if (engine.input.deep != nullptr) {
+    const LightTile tiles = TilesAround(engine, rect);
+    excess = tiles.excess_bits != 0;
+    alpha = tiles.transparent != 0;
+  } else if (engine.config.highlights > 1) {
+    excess = HasHighlights(engine.input, rect, engine.lens.borders.highlights);
+  }
+  for (int32_t k = 0; k < count; ++k) {
+    blocks[k].passes[kLightPass] = true;
+    blocks[k].passes[kExcessPass] = excess;
+    blocks[k].passes[kAlphaPass] = alpha;
+  }
 }
 
 // Plans blocks of one size at layer 0, for the frame modes, blur mode and pinholes. `superblock` is
@@ -39,7 +66,6 @@ int32_t PlanWhole(const EngineState& engine, const Rect& superblock, Block* bloc
   block.layer = 0;
   block.n = lens.frame_weights.n;
   block.gathers = false;
-  block.has_highlights = !IsPinhole(lens) && ShowsHighlights(engine, superblock);
   int32_t count = 0;
   for (int32_t y = superblock.y; y < bottom; y += side) {
     for (int32_t x = superblock.x; x < right; x += side) {
@@ -58,9 +84,6 @@ int32_t PlanBlocks(const EngineState& engine, const Rect& superblock, const Scra
                    Block* blocks) {
   const Lens& lens = engine.lens;
   if (!IsPartitioned(lens)) return PlanWhole(engine, superblock, blocks);
-  const bool has_highlights = ShowsHighlights(engine, superblock);
-  // Blocks with highlights are rendered from views at layer 0, because light beyond white is read
-  // only at layer 0.
   const PartitionRules rules = {engine.kernels,
                                 &engine.config,
                                 lens.renderer,
@@ -70,9 +93,8 @@ int32_t PlanBlocks(const EngineState& engine, const Rect& superblock, const Scra
                                 lens.scale,
                                 lens.borders.cells,
                                 LargestSide(engine),
-                                has_highlights ? 0 : engine.config.tuning.max_layer,
-                                !has_highlights && Gathers(engine.config, lens),
-                                has_highlights};
+                                engine.config.tuning.max_layer,
+                                Gathers(engine.config, lens)};
   return PartitionBlock(rules, engine.stripe.cells, superblock.x, superblock.y, scratch.candidates,
                         scratch.cell_samples, engine.stripe.plan.gathered, blocks);
 }
@@ -216,6 +238,12 @@ bool ChooseColumns(const Range& rows, EngineState* engine) {
 
 starfocus_status PlanStripe(const Range& rows, EngineState* engine) {
   const Lens& lens = engine->lens;
+  if (engine->input.deep != nullptr) {
+    // The excess of the brightest light of the stripe fits into 14 bits, or 15 if it is larger.
+    const LightTile tiles =
+        TilesAround(*engine, {0, rows.first, engine->config.width, rows.count()});
+    engine->stripe.excess_shift = Max(0, 14 - tiles.excess_bits);
+  }
   StripePlan& plan = engine->stripe.plan;
   if (IsPartitioned(lens)) {
     plan.gathered.first_row = rows.first / kCellSize;
@@ -238,10 +266,11 @@ starfocus_status PlanStripe(const Range& rows, EngineState* engine) {
   const auto divide = [&](int32_t column, int32_t worker) {
     const int32_t x = column * plan.side;
     const Rect superblock = {x, rows.first, Min(plan.side, engine->config.width - x), rows.count()};
-    plan.counts[column] =
-        plan.wanted[column] == 0
-            ? 0
-            : PlanBlocks(*engine, superblock, engine->scratch[worker], plan.BlocksOf(column));
+    Block* const blocks = plan.BlocksOf(column);
+    plan.counts[column] = 0;
+    if (plan.wanted[column] == 0) return;
+    plan.counts[column] = PlanBlocks(*engine, superblock, engine->scratch[worker], blocks);
+    if (!IsPinhole(lens)) FindPasses(*engine, superblock, blocks, plan.counts[column]);
   };
   const starfocus_status status = ForEach(plan.columns, engine->jobs, divide);
   if (status == STARFOCUS_OK) ReadPlan(rows, engine);

@@ -4,7 +4,6 @@
 
 #include "lib/gather/gather.h"
 #include "lib/io/block_pixels.h"
-#include "lib/io/highlights.h"
 
 namespace starfocus {
 namespace {
@@ -62,14 +61,14 @@ void AddPsf(const simd::Kernels& kernels, Psf psf, int32_t side, const int16_t* 
 
 }  // namespace
 
-void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators, uint8_t* out,
-                   size_t out_stride) {
+void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators,
+                   const SumsOfRun& runs) {
   LoadPixels(job, rgb);
   const Rect& rect = job.rect;
   const size_t stride = 3 * static_cast<size_t>(rect.width + 2 * job.border);
   const bool turns = job.psfs_of_radius[0].full;
   const auto add_psf = turns ? AddPsf<true> : AddPsf<false>;
-  for (int32_t y = 0; y < rect.height; ++y, out += out_stride) {
+  for (int32_t y = 0; y < rect.height; ++y) {
     const int16_t* disparity = job.input->disparity.Row(rect.y + y) + rect.x;
     const int16_t* row =
         rgb + static_cast<size_t>(y + job.border) * stride + 3 * static_cast<size_t>(job.border);
@@ -89,14 +88,8 @@ void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators, uin
       if (!GoesOn(job.cancel, points * static_cast<int64_t>(samples))) return;
       std::memset(accumulators, 0, samples * sizeof(uint32_t));
       add_psf(*job.input->kernels, psf, side, row + 3 * begin, stride, x - begin, accumulators);
-      const int bits = psf.sum_bits + kLightBits;
-      CheckSums(accumulators, samples, bits);
-      if (job.input->captured != nullptr) {
-        AddExcess(*job.input, accumulators, samples, bits, out + 3 * begin);
-        continue;
-      }
-      job.input->kernels->Finish(accumulators, samples, bits, *job.input->transfer,
-                                 out + 3 * begin);
+      runs.store(runs.data, accumulators, {rect.x + begin, rect.y + y, x - begin, 1},
+                 psf.sum_bits + kLightBits);
     }
   }
 }

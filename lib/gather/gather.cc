@@ -209,7 +209,7 @@ class Gather {
     if (!Spend(psf, part)) return x;
     const simd::SampleRows in = RowsOf(part);
     const simd::Disc disc = DiscOf(psf);
-    if (job_.cells.layer == 0) {
+    if (codes_ != nullptr) {
       job_.input->kernels->FilterDisc(in, disc, *job_.input->transfer, codes_ + FirstOut(part),
                                       stride_);
     } else {
@@ -287,7 +287,7 @@ class Gather {
     size_t at = FirstOut(pixels);
     const int16_t* moved = moved_;
     for (int32_t row = 0; row < pixels.height; ++row) {
-      if (job_.cells.layer > 0) {
+      if (codes_ == nullptr) {
         std::memcpy(samples_ + at, moved, count * sizeof(*moved));
       } else {
         job_.input->kernels->Narrow(moved, count, *job_.input->transfer, codes_ + at);
@@ -340,8 +340,8 @@ class Gather {
   const Rect frame_;   // LayerFrame of the block, in pixels of the layer.
   Rect loaded_ = {};   // Pixels of the layer that the filters read.
   BlockPixels* field_;
-  uint8_t* const codes_;    // output at layer 0
-  int16_t* const samples_;  // output at other layers
+  uint8_t* const codes_;    // output, if it is not null
+  int16_t* const samples_;  // output if codes_ is null
   const size_t stride_;
   int32_t border_ = 0;  // border of the field: the largest PSF size
   uint64_t pixels_ = 0;

@@ -79,8 +79,9 @@ struct GatherJob {
 
 // Blurs, without views, the cells of a block that GatherMap selects. `field` must have room for the
 // LayerFrame of the block and a border of kMaxGather pixels. The output starts at the first pixel
-// of the LayerFrame, in rows `stride` samples apart: codes at layer 0, samples with kLayerBits at
-// other layers. Returns the number of pixels of the picture that the blurred cells cover.
+// of the LayerFrame, in rows `stride` samples apart: codes or, if `codes` is null, samples with
+// kLayerBits. Layers other than 0 have no codes. Returns the number of pixels of the picture that
+// the blurred cells cover.
 uint64_t GatherCells(const GatherJob& job, BlockPixels* field, uint8_t* codes, int16_t* samples,
                      size_t stride);
 
@@ -88,19 +89,33 @@ uint64_t GatherCells(const GatherJob& job, BlockPixels* field, uint8_t* codes, i
 // comparison with rendered views. Each output pixel is the mean of its neighbours, weighted by the
 // ideal PSF (4) of its blur radius.
 struct BlurJob {
-  const Input* input;  // If it reads excess, BlurRectangle adds the blurred excess to `out`.
+  const Input* input;
   BlurScale scale;
   const Psf* psfs_of_radius;
   Rect rect;
   int32_t border;       // Largest Psf::size in the picture, in pixels.
-  CancelToken* cancel;  // Cancels the call; `out` is incomplete after cancellation.
+  CancelToken* cancel;  // Cancels the call; rows are then missing.
 };
 
-// Blurs job.rect into `out`, which starts at the first pixel of the rectangle. Scratch memory:
-// `rgb` holds the light of the extended rectangle in packed rows, `accumulators` 3 * rect.width
-// sums.
-void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators, uint8_t* out,
-                   size_t out_stride);
+// Receives the sums of a run of pixels of one row, with `bits` fractional bits more than codes.
+struct SumsOfRun {
+  void (*store)(void* data, const uint32_t* sums, const Rect& run, int bits);
+  void* data;
+};
+
+// Blurs job.rect. Scratch memory: `rgb` holds the light of the extended rectangle in packed rows,
+// `accumulators` 3 * rect.width sums.
+void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators, const SumsOfRun& runs);
+
+// Calls store(sums, run, bits) in place of SumsOfRun.
+template <class Store>
+void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators, const Store& store) {
+  const SumsOfRun runs = {[](void* data, const uint32_t* sums, const Rect& run, int bits) {
+                            (*static_cast<const Store*>(data))(sums, run, bits);
+                          },
+                          const_cast<Store*>(&store)};
+  BlurRectangle(job, rgb, accumulators, runs);
+}
 
 }  // namespace starfocus
 

@@ -15,11 +15,14 @@ bool IsHighlight(const uint8_t* codes) {
 // Fractional bits of Input::excess_factor.
 constexpr int kExcessBits = 8;
 
-constexpr int32_t kSteps = 255 - kFirstExcess + 1;
+// Returns the share of the light of a highlight that its excess has, in units of 1 / kWhole. The
+// second largest code decides, with which the excess begins.
+constexpr int32_t kSteps = 255 - kFirstExcess + 1, kWhole = kSteps * kSteps;
 
-int32_t ExcessOfCode(uint8_t code) {
-  const int32_t step = Max(0, code - kFirstExcess + 1);
-  return kLightWhite * step * step / (kSteps * kSteps);
+int32_t ShareOf(const uint8_t* codes) {
+  const int32_t a = Min(codes[0], codes[1]), b = Max(codes[0], codes[1]);
+  const int32_t step = Max(0, Max(a, Min(b, codes[2])) - kFirstExcess + 1);
+  return step * step;
 }
 
 // A row or a column of a captured view.
@@ -77,8 +80,9 @@ void ReadPixel(const Input& in, int view, int32_t x, int32_t y, const uint8_t* c
   if (run > lamp) run = Min(run, RunThrough({in, view, false, x}, y));
   const int32_t share = Clamp(LampRadius(lamp) - run, 0, lamp);
   if (share == 0) return;
+  const int32_t part = ShareOf(codes) * share, whole = kWhole * lamp;
   for (int c = 0; c < 3; ++c) {
-    rgb[c] = static_cast<int16_t>(ExcessOfCode(codes[c]) * share / lamp);
+    rgb[c] = static_cast<int16_t>(in.transfer->light[codes[c]] * part / whole);
   }
 }
 
@@ -138,7 +142,9 @@ bool HasHighlights(const Input& in, const Rect& rect, int32_t reach) {
 Input ExcessOf(const Input& captured, double highlights, LampLengths* runs) {
   runs->Clear();
   Input in = captured;
+  in.reads_codes = false;
   in.read_light = ReadExcess;
+  in.is_excess = true;
   in.captured = &captured;
   in.runs = runs;
   in.excess_factor =

@@ -53,9 +53,10 @@ struct LampLengths {
 };
 
 // Returns an input whose light is the excess of the highlights of `captured`, at layer 0. Clears
-// `runs`, its cache. `captured` and `runs` must outlive the result. The excess of a highlight rises
-// with the square of the code, from kFirstExcess on, and equals white for a clipped sample. Other
-// pixels have no excess. `highlights` is FullConfig.highlights.
+// `runs`, its cache. `captured` and `runs` must outlive the result. The excess of a highlight is a
+// part of its light, so that it keeps its colour. The part rises with the square of the second
+// largest code, from kFirstExcess on, and is the whole light if this code is clipped. Other pixels
+// have no excess. `highlights` is FullConfig.highlights.
 //
 // A highlight that is at most LargestLamp pixels high or wide has its full excess. The excess of
 // larger highlights decreases to 0 at twice this size. Highlights that reach the edge of the

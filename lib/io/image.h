@@ -54,8 +54,10 @@ inline constexpr simd::YuvMatrix kYuvMatrices[2][2] = {
 // luma, U and V, and `step` is the number of bytes from chroma sample to chroma sample.
 template <class Byte>
 struct ImagePlanes {
+  int32_t format;  // starfocus_format
   bool is_yuv, blue_first, has_alpha;
-  uint8_t matrix;  // 2 * starfocus_matrix + starfocus_range, of YUV formats
+  bool refocuses_alpha;  // True: alpha is refocused like light; false: alpha is copied.
+  uint8_t matrix;        // 2 * starfocus_matrix + starfocus_range, of YUV formats
   uint32_t step;
   Byte* planes[3];
   size_t strides[3];
@@ -63,7 +65,7 @@ struct ImagePlanes {
   const simd::YuvMatrix& Matrix() const { return kYuvMatrices[matrix / 2][matrix % 2]; }
 
   // Returns true if rows are packed RGB.
-  bool IsPacked() const { return !is_yuv && !blue_first && step == 3; }
+  bool IsPacked() const { return format == STARFOCUS_FORMAT_RGB && step == 3; }
 
   Byte* Pixel(int32_t x, int32_t y) const {
     return planes[0] + static_cast<size_t>(y) * strides[0] + static_cast<size_t>(x) * step;
@@ -81,35 +83,51 @@ struct ImagePlanes {
 using ImageSource = ImagePlanes<const uint8_t>;
 using ImageTarget = ImagePlanes<uint8_t>;
 
-constexpr bool IsYuv(int32_t format) { return format >= STARFOCUS_FORMAT_NV12; }
+// Returns true if the samples of a format have more than 8 bits.
+constexpr bool IsDeep(int32_t format) { return format >= STARFOCUS_FORMAT_RGB16; }
+constexpr bool IsYuv(int32_t format) {
+  return (format >= STARFOCUS_FORMAT_NV12 && format <= STARFOCUS_FORMAT_YUV_420_888) ||
+         format >= STARFOCUS_FORMAT_P010;
+}
+// Returns true if two rows of pixels share a row of chroma samples.
+constexpr bool HasRowPairs(int32_t format) {
+  return IsYuv(format) && format != STARFOCUS_FORMAT_P210;
+}
+// Returns true if samples of U and V alternate in one plane.
 constexpr bool IsPaired(int32_t format) {
-  return format == STARFOCUS_FORMAT_NV12 || format == STARFOCUS_FORMAT_NV21;
+  return format == STARFOCUS_FORMAT_NV12 || format == STARFOCUS_FORMAT_NV21 ||
+         format >= STARFOCUS_FORMAT_P010;
 }
 constexpr bool HasAlpha(int32_t format) {
   return format == STARFOCUS_FORMAT_RGBX || format == STARFOCUS_FORMAT_BGRX;
 }
+constexpr bool RefocusesAlpha(int32_t format) {
+  return format == STARFOCUS_FORMAT_RGBA16 || format == STARFOCUS_FORMAT_RGBA_HALF;
+}
+constexpr int32_t SampleBytes(int32_t format) { return IsDeep(format) ? 2 : 1; }
 
 // Returns the number of bytes that pixel_stride = 0 selects for a format.
 constexpr int32_t LeastStep(int32_t format) {
-  if (!IsYuv(format)) return HasAlpha(format) ? 4 : 3;
-  return IsPaired(format) ? 2 : 1;
+  const bool four = HasAlpha(format) || RefocusesAlpha(format);
+  return SampleBytes(format) * (IsYuv(format) ? (IsPaired(format) ? 2 : 1) : four ? 4 : 3);
 }
 
 // Returns the planes of a valid image. The type parameter Byte is const for input images.
 template <class Byte>
 ImagePlanes<Byte> PlanesOf(const starfocus_image& image) {
   ImagePlanes<Byte> of = {};
-  const int32_t format = image.format;
+  const int32_t format = of.format = image.format;
   of.is_yuv = IsYuv(format);
   of.blue_first = format == STARFOCUS_FORMAT_BGR || format == STARFOCUS_FORMAT_BGRX;
   of.has_alpha = HasAlpha(format);
+  of.refocuses_alpha = RefocusesAlpha(format);
   of.step = static_cast<uint32_t>(image.pixel_stride != 0 ? image.pixel_stride : LeastStep(format));
   if (of.is_yuv) of.matrix = static_cast<uint8_t>(2 * image.matrix + image.range);
   for (int plane = 0; plane < 3; ++plane) {
     of.planes[plane] = static_cast<Byte*>(image.planes[plane]);
     of.strides[plane] = image.strides[plane];
   }
-  if (IsPaired(format)) {
+  if (IsPaired(format) && !IsDeep(format)) {
     const int u = format == STARFOCUS_FORMAT_NV12 ? 0 : 1;
     Byte* const chroma = of.planes[1];
     of.planes[1] = chroma + u;

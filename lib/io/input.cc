@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/io/input.h"
 
+#include <algorithm>
 #include <cstring>
 #include <initializer_list>
 
 #include "lib/base/config.h"
+#include "lib/io/deep.h"
 #include "lib/io/depth_map.h"
 #include "lib/io/image.h"
 
@@ -146,6 +148,92 @@ void ReadImageLight(const Input& in, int view, int32_t x, int32_t y, int32_t cou
   }
 }
 
+// Calls use(n, rgb, alpha) for pieces of `count` deep pixels of a row of a view. Piece n begins at
+// pixel x + n. `alpha` is null unless kAlpha is true.
+template <bool kAlpha, class Use>
+void WithDeep(const Input& in, int view, int32_t x, int32_t y, int32_t count, const Use& use) {
+  const Plane<const uint16_t>& rows = in.deep_rows[view];
+  if (rows.data != nullptr) {
+    use(0, count, rows.Row(y) + 3 * static_cast<ptrdiff_t>(x),
+        kAlpha ? in.deep_alpha[view].Row(y) + x : nullptr);
+    return;
+  }
+  constexpr int32_t kPiece = 128;
+  uint16_t rgb[3 * kPiece], alpha[kPiece];
+  for (int32_t n = 0; n < count; n += kPiece) {
+    const int32_t some = Min(kPiece, count - n);
+    ReadDeep(*in.deep, in.images[view], x + n, y - in.first, some, rgb, kAlpha ? alpha : nullptr);
+    use(n, some, rgb, kAlpha ? alpha : nullptr);
+  }
+}
+
+void ReadDeepLight(const Input& in, int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
+  WithDeep<false>(in, view, x, y, count,
+                  [&](int32_t at, int32_t some, const uint16_t* codes, const uint16_t*) {
+                    int16_t* const to = rgb + 3 * at;
+                    for (int32_t n = 0; n < 3 * some; ++n) {
+                      to[n] = static_cast<int16_t>(codes[n] < kLightWhite ? codes[n] : kLightWhite);
+                    }
+                  });
+}
+
+void ReadDeepExcess(const Input& in, int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
+  const int32_t most = kLightWhite >> in.excess_shift;
+  WithDeep<false>(in, view, x, y, count,
+                  [&](int32_t at, int32_t some, const uint16_t* codes, const uint16_t*) {
+                    for (int32_t n = 0; n < 3 * some; ++n) {
+                      const int32_t excess = Clamp(codes[n] - kLightWhite, 0, most);
+                      rgb[3 * at + n] = static_cast<int16_t>(excess << in.excess_shift);
+                    }
+                  });
+}
+
+void ReadDeepWhole(const Input& in, int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
+  WithDeep<false>(in, view, x, y, count,
+                  [&](int32_t at, int32_t some, const uint16_t* codes, const uint16_t*) {
+                    for (int32_t n = 0; n < 3 * some; ++n) {
+                      rgb[3 * at + n] = static_cast<int16_t>(LightOfDeep(codes[n]) >> kExcessBits);
+                    }
+                  });
+}
+
+void ReadDeepAlpha(const Input& in, int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
+  WithDeep<true>(in, view, x, y, count,
+                 [&](int32_t at, int32_t some, const uint16_t*, const uint16_t* alpha) {
+                   for (int32_t n = 0; n < 3 * some; ++n) {
+                     rgb[3 * at + n] = static_cast<int16_t>(alpha[n / 3]);
+                   }
+                 });
+}
+
+// Returns the 8-bit codes of a deep view, whose light is clipped at white.
+const uint8_t* ReadDeepCodes(const Input& in, int view, int32_t x, int32_t y, int32_t count,
+                             uint8_t* room) {
+  constexpr int32_t kPiece = 128;
+  int16_t light[3 * kPiece];
+  for (int32_t n = 0; n < count; n += kPiece) {
+    const int32_t some = Min(kPiece, count - n);
+    ReadDeepLight(in, view, x + n, y, some, light);
+    in.kernels->Encode(light, 3 * static_cast<size_t>(some), *in.transfer, room + 3 * n);
+  }
+  return room;
+}
+
+// Adds `count` pixels from column x on to their tiles.
+void AddToTiles(int32_t x, int32_t count, const uint16_t* rgb, const uint16_t* alpha,
+                LightTile* tiles) {
+  for (int32_t n = 0, end; n < count; n = end) {
+    const int32_t tile = (x + n) / LightTile::kTileColumns;
+    end = Min(count, (tile + 1) * LightTile::kTileColumns - x);
+    uint16_t most = kLightWhite, least = kLightWhite;
+    for (int32_t k = 3 * n; k < 3 * end; ++k) most = rgb[k] > most ? rgb[k] : most;
+    for (int32_t k = n; k < end; ++k) least = alpha[k] < least ? alpha[k] : least;
+    const int32_t excess = most - kLightWhite;
+    const int32_t bits = excess == 0 ? 0 : HighestBit(static_cast<uint32_t>(excess)) + 1;
+    tiles[tile].Add({static_cast<uint8_t>(bits), static_cast<uint8_t>(least < kLightWhite)});
+  }
+}
+
 // Returns an input of packed views, without its planes.
 Input EmptyInput(const FullConfig& config, const simd::Kernels& kernels) {
   Input in;
@@ -154,6 +242,7 @@ Input EmptyInput(const FullConfig& config, const simd::Kernels& kernels) {
   in.width = config.width;
   in.height = config.height;
   in.views = config.views;
+  in.deep_transfer = config.transfer;
   // Creating the engine has already validated the positions of the views.
   ViewSet set;
   FindViews(config.views, config.positions, config.problem, &set);
@@ -165,6 +254,14 @@ Input EmptyInput(const FullConfig& config, const simd::Kernels& kernels) {
 template <class T>
 Plane<const T> Constant(const Plane<T>& plane) {
   return {plane.data, plane.stride, plane.rows, plane.first};
+}
+
+// Makes `in` read deep pictures.
+void ReadFromDeep(const DeepTables* tables, Input* in) {
+  in->deep = tables;
+  in->reads_codes = false;
+  in->read_light = ReadDeepLight;
+  in->read_codes = ReadDeepCodes;
 }
 
 // Fills the unknown disparities (kNoSurface) of a row. Returns the number of unknown pixels. If
@@ -186,18 +283,27 @@ void TakeInput(const FullConfig& config, int32_t rows, int32_t alpha_rows, Arena
                InputRings* rings) {
   const auto width = static_cast<size_t>(config.width);
   const bool streaming = Has(config, STARFOCUS_FEATURE_STREAMING);
-  const bool images = Has(config, STARFOCUS_FEATURE_IMAGES);
+  const bool images = ReadsImages(config);
   const int views = streaming ? config.views : images ? 1 : 0;
+  const bool deep = Has(config, STARFOCUS_FEATURE_DEEP);
   *rings = {};
   rings->disparity = TakeRing<int16_t>(width, rows, arena);
-  for (int view = 0; view < views; ++view) {
+  if (deep) {
+    constexpr size_t kColumns = LightTile::kTileColumns;
+    rings->tiles = TakeRing<LightTile>((width + kColumns - 1) / kColumns, rows, arena);
+  }
+  for (int view = 0; deep && view < views; ++view) {
+    rings->deep[view] = TakeRing<uint16_t>(3 * width, rows, arena);
+    rings->deep_alpha[view] = TakeRing<uint16_t>(width, rows, arena);
+  }
+  for (int view = 0; !deep && view < views; ++view) {
     rings->views[view] = arena->Take<uint8_t>(3 * width, static_cast<size_t>(rows));
   }
   if (streaming && Has(config, STARFOCUS_FEATURE_COVERAGE)) {
     rings->coverage = TakeRing<uint8_t>(width, rows, arena);
   }
   if (images) rings->columns = arena->Take<uint32_t>(width);
-  if (images && streaming) rings->alpha = TakeRing<uint8_t>(width, alpha_rows, arena);
+  if (images && streaming && !deep) rings->alpha = TakeRing<uint8_t>(width, alpha_rows, arena);
 }
 
 const uint8_t* ReadPackedCodes(const Input& in, int view, int32_t x, int32_t y, int32_t, uint8_t*) {
@@ -226,10 +332,19 @@ Input InputOf(const FullConfig& config, const simd::Kernels& kernels,
     in.converts_centre = in.converts_centre || !in.images[view].IsPacked();
   }
   in.centre = RowsOf(given.views[0], first);
-  if (in.converts_centre) {
+  if (in.converts_centre && rings->tables == nullptr) {
     in.read_light = ReadImageLight;
     in.read_codes = ReadImageCodes;
     in.centre = Constant(rings->View(0));
+  }
+  if (rings->tables != nullptr) {
+    ReadFromDeep(rings->tables, &in);
+    in.converts_centre = true;
+    for (int view = 0; view < in.views; ++view) {
+      in.has_alpha = in.has_alpha || in.images[view].refocuses_alpha;
+    }
+    in.deep_rows[0] = Constant(rings->deep[0]);
+    in.deep_alpha[0] = Constant(rings->deep_alpha[0]);
   }
   if (rings->columns != nullptr && rings->map_width != given.depth.width) {
     rings->map_width = given.depth.width;
@@ -246,21 +361,67 @@ Input InputOf(const FullConfig& config, const simd::Kernels& kernels,
   return in;
 }
 
-Input InputOf(const FullConfig& config, const simd::Kernels& kernels, const Plane<uint8_t>* views,
+Input InputOf(const FullConfig& config, const simd::Kernels& kernels, const StoredViews& views,
               const Plane<int16_t>& disparity, const Plane<uint8_t>& coverage) {
   Input in = EmptyInput(config, kernels);
   for (int view = 0; view < in.views; ++view) {
-    in.images[view].planes[0] = views[view].data;
-    in.images[view].strides[0] = views[view].stride;
+    in.images[view].planes[0] = views.codes[view].data;
+    in.images[view].strides[0] = views.codes[view].stride;
+    in.deep_rows[view] = Constant(views.deep[view]);
+    in.deep_alpha[view] = Constant(views.deep_alpha[view]);
   }
-  in.centre = Constant(views[0]);
+  in.centre = Constant(views.codes[0]);
+  if (views.tables != nullptr) ReadFromDeep(views.tables, &in);
   in.disparity = Constant(disparity);
   in.given_coverage = Constant(coverage);
   return in;
 }
 
-void ReadView(const Input& in, int view, int32_t y, uint8_t* rgb) {
-  ReadCodes(*in.image_kernels, in.images[view], 0, y - in.first, in.width, rgb);
+void ConvertRow(const Input& in, int32_t y, bool all_views, const InputRings& rings) {
+  if (in.deep == nullptr) {
+    for (int view = 0; view < (all_views ? in.views : 1); ++view) {
+      ReadCodes(*in.image_kernels, in.images[view], 0, y - in.first, in.width,
+                rings.View(view).Row(y));
+    }
+    return;
+  }
+  LightTile* const tiles = rings.tiles.Row(y);
+  std::fill_n(tiles, rings.tiles.stride, LightTile{0, 0});
+  for (int view = 0; view < in.views; ++view) {
+    const ImageSource& image = in.images[view];
+    const bool is_stored = !in.converts_centre;
+    if (!is_stored && (all_views || view == 0)) {
+      uint16_t *const rgb = rings.deep[view].Row(y), *const alpha = rings.deep_alpha[view].Row(y);
+      ReadDeep(*in.deep, image, 0, y - in.first, in.width, rgb, alpha);
+      AddToTiles(0, in.width, rgb, alpha, tiles);
+    } else if (is_stored || image.refocuses_alpha ||
+               MayExceedWhite(image.format, in.deep_transfer)) {
+      WithDeep<true>(in, view, 0, y, in.width,
+                     [&](int32_t x, int32_t some, const uint16_t* rgb, const uint16_t* alpha) {
+                       AddToTiles(x, some, rgb, alpha, tiles);
+                     });
+    }
+  }
+}
+
+Input DeepExcessOf(const Input& captured, int32_t shift) {
+  Input in = captured;
+  in.read_light = ReadDeepExcess;
+  in.is_excess = true;
+  in.excess_shift = shift;
+  return in;
+}
+
+Input DeepWholeOf(const Input& captured) {
+  Input in = captured;
+  in.read_light = ReadDeepWhole;
+  return in;
+}
+
+Input DeepAlphaOf(const Input& captured) {
+  Input in = captured;
+  in.read_light = ReadDeepAlpha;
+  return in;
 }
 
 uint32_t ReadMap(const Input& in, const Range& rows, const Plane<int16_t>* out, uint64_t* unknown) {
@@ -281,7 +442,7 @@ void CopyRows(const Input& from, const Range& rows, const InputRings& to) {
   const auto width = static_cast<size_t>(from.width);
   const ImageSource& centre = from.images[0];
   for (int32_t y = rows.first; y < rows.last; ++y) {
-    for (int view = 0; view < from.views; ++view) ReadView(from, view, y, to.View(view).Row(y));
+    ConvertRow(from, y, true, to);
     if (from.given_coverage.data != nullptr && to.coverage.data != nullptr) {
       std::memcpy(to.coverage.Row(y), from.given_coverage.Row(y), width);
     }

@@ -21,9 +21,22 @@
 namespace starfocus {
 
 struct CoverageMap;
+struct DeepTables;
 struct Input;
 struct LampLengths;
 struct RimMap;
+
+// What a tile of kTileColumns pixels of a row contains in any view: the number of bits of its
+// largest excess, 0 for none, and a flag for alpha below 1.
+struct LightTile {
+  static constexpr int32_t kTileColumns = 64;
+  uint8_t excess_bits, transparent;
+
+  void Add(const LightTile& tile) {
+    excess_bits = tile.excess_bits > excess_bits ? tile.excess_bits : excess_bits;
+    transparent |= tile.transparent;
+  }
+};
 
 // Rows of a light field in memory of the engine. Planes without memory have null data.
 struct InputRings {
@@ -32,12 +45,23 @@ struct InputRings {
   uint8_t* views[STARFOCUS_MAX_VIEWS] = {};
   Plane<int16_t> disparity;        // Converted rows of the disparity map, kDisparityBits.
   Plane<uint8_t> coverage, alpha;  // With streaming: pushed rows; the alpha of the centre view.
-  uint32_t* columns = nullptr;     // With images: see DepthSource::columns.
+  // Deep engines have these in place of `views`, with the same rows: colours, alpha, and tiles.
+  Plane<uint16_t> deep[STARFOCUS_MAX_VIEWS], deep_alpha[STARFOCUS_MAX_VIEWS];
+  Plane<LightTile> tiles;
+  const DeepTables* tables = nullptr;  // Set by the engine.
+  uint32_t* columns = nullptr;         // With images: see DepthSource::columns.
   int32_t map_width = 0;  // Width of the map for which `columns` was set; 0 if it is not set yet.
 
   Plane<uint8_t> View(int view) const {
     return {views[view], 3 * disparity.stride, disparity.rows, 0};
   }
+};
+
+// Views in memory of the library: codes, or colours and alpha of deep pictures.
+struct StoredViews {
+  Plane<uint8_t> codes[STARFOCUS_MAX_VIEWS];
+  Plane<uint16_t> deep[STARFOCUS_MAX_VIEWS], deep_alpha[STARFOCUS_MAX_VIEWS];
+  const DeepTables* tables = nullptr;  // Null: the views are codes.
 };
 
 // Allocates rings of `rows` rows, but of `alpha_rows` rows for alpha, which is read later.
@@ -74,12 +98,22 @@ struct Input {
   int32_t views = 0;               // Number of captured views, including the centre view.
   OcclusionViews occlusion_views;  // Captured views that see behind depth edges.
 
+  // Not null: the pictures are deep (deep.h). Views without rows in memory are converted from their
+  // image when they are read.
+  const DeepTables* deep = nullptr;
+  Plane<const uint16_t> deep_rows[STARFOCUS_MAX_VIEWS], deep_alpha[STARFOCUS_MAX_VIEWS];
+  int32_t deep_transfer = 0;  // starfocus_transfer of the 16-bit codes of deep pictures.
+  bool has_alpha = false;     // True: some view has alpha that is refocused.
+  int32_t excess_shift = 0;   // Of ReadDeepExcess: the excess is multiplied by 2^excess_shift.
+
   // Rows of the views. Row 0 of `images` is row `first` of the picture. If `centre` is a ring,
   // packed views are rings with the same number of rows.
   ImageSource images[STARFOCUS_MAX_VIEWS] = {};
   int32_t first = 0;
   Plane<const uint8_t> centre;   // Codes of the centre view.
-  bool converts_centre = false;  // True: ReadView must fill `centre` before its rows are read.
+  bool reads_codes = true;       // True: light is that of the codes of the pictures.
+  bool is_excess = false;        // True: light is that of lamps beyond white.
+  bool converts_centre = false;  // True: ConvertRow must fill `centre` before its rows are read.
 
   DepthSource map = {};        // Map to convert (ReadMap); without data: `disparity` is complete.
   bool fills_unknown = false;  // True: ReadMap fills unknown disparities.
@@ -94,9 +128,9 @@ struct Input {
   // Contaminated rims beside outlines; null: no rims.
   const RimMap* rims = nullptr;
 
-  // Not null: this input reads the excess of the highlights of `captured`, at layer 0, instead of
-  // its light (highlights.h). `runs` is the cache of their sizes. `excess_factor` multiplies the
-  // rendered excess.
+  // Not null: this input reads the excess or the alpha of `captured` as light. Mixtures of surfaces
+  // are found in the light of `captured`. For highlights (highlights.h), `runs` is the cache of
+  // their sizes, and `excess_factor` multiplies the rendered excess.
   const Input* captured = nullptr;
   LampLengths* runs = nullptr;
   int32_t excess_factor = 0;
@@ -121,11 +155,20 @@ Input InputOf(const FullConfig& config, const simd::Kernels& kernels,
               const starfocus_light_field& given, int32_t first, InputRings* rings);
 
 // Returns a light field in memory of the library. The planes of `views` have the same geometry.
-Input InputOf(const FullConfig& config, const simd::Kernels& kernels, const Plane<uint8_t>* views,
+Input InputOf(const FullConfig& config, const simd::Kernels& kernels, const StoredViews& views,
               const Plane<int16_t>& disparity, const Plane<uint8_t>& coverage);
 
-// Writes the codes of row y of a view, converted from its image.
-void ReadView(const Input& in, int view, int32_t y, uint8_t* rgb);
+// Converts row y of the views to `rings`: of the centre view or, with all_views, of all views. Deep
+// engines also set the tiles of the row. If the views are already in memory of the library, sets
+// only the tiles.
+void ConvertRow(const Input& in, int32_t y, bool all_views, const InputRings& rings);
+
+// Return inputs that read, as light, the excess beyond white or the alpha of a deep input.
+Input DeepExcessOf(const Input& captured, int32_t shift);
+Input DeepAlphaOf(const Input& captured);
+
+// Returns an input that reads all light of a deep input, divided by 2^kExcessBits (deep.h).
+Input DeepWholeOf(const Input& captured);
 
 // Returns the flags (simd::kUnknownDepth) of the values of the map on which `rows` depend. If `out`
 // is not null, also writes the disparities of the rows. If in.fills_unknown, unknown disparities

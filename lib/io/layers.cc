@@ -37,27 +37,64 @@ void SplitLine(const Split& split, const Sample& sample, int32_t y, int32_t widt
   repeat(width - 1, right, pairs.last - pairs.first);
 }
 
-// Subsamples a plane of width x height pixels: first along all rows that `to` depends on, then
-// along columns. Rows outside the plane repeat its edge rows. SplitLine describes `split` and
-// `sample`.
+// A plane of width x height pixels, whose rows SplitLine splits with `split` and `sample`.
 template <class Split, class Sample>
-void Downsample(const Kernels& kernels, const Split& split, const Sample& sample, int32_t width,
-                int32_t height, const Range& columns, const ResampleScratch& scratch,
+struct SplitPlane {
+  const Split& split;
+  const Sample& sample;
+  int32_t width, height;
+};
+
+// Subsamples a plane: first along all rows that `to` depends on, then along columns. Rows outside
+// the plane repeat its edge rows.
+template <class Split, class Sample>
+void Downsample(const Kernels& kernels, const SplitPlane<Split, Sample>& from,
+                const simd::HalfBand& filter, const Range& columns, const ResampleScratch& scratch,
                 const LayerPlane& to) {
   const Range pairs = PairsOf(columns);
   const size_t count = SamplesOf(columns);
   int16_t* half = scratch.half;
   for (int32_t y = 2 * to.rows.first - 3; y < 2 * to.rows.last + 2; ++y, half += count) {
-    SplitLine(split, sample, Clamp(y, 0, height - 1), width, pairs, scratch);
-    kernels.Halve(scratch.even + 6, scratch.odd + 6, kDownFilter, count, half);
+    SplitLine(from.split, from.sample, Clamp(y, 0, from.height - 1), from.width, pairs, scratch);
+    kernels.Halve(scratch.even + 6, scratch.odd + 6, filter, count, half);
     CheckAll(ranges::kFilteredAlongX, half, count);
   }
   half = scratch.half + 3 * count;
   for (int32_t y = to.rows.first; y < to.rows.last; ++y, half += 2 * count) {
     int16_t* samples = to.samples.Row(y) + 3 * columns.first;
-    kernels.FilterHalfBand(half, static_cast<ptrdiff_t>(count), kDownFilter, count, 0, kLayerWhite,
+    kernels.FilterHalfBand(half, static_cast<ptrdiff_t>(count), filter, count, 0, kLayerWhite,
                            samples);
     CheckAll(ranges::kLayerSample, samples, count);
+  }
+}
+
+// Returns the filter for layers of the centre view of `in`. Excess is that of small lamps, at which
+// the negative taps of kDownFilter would be clamped, and the lamps become brighter.
+const simd::HalfBand& FilterOf(const Input& in) {
+  static constexpr simd::HalfBand kTriangle = {1 << (simd::kTapBits - 1), 1 << (simd::kTapBits - 2),
+                                               0};
+  return in.is_excess ? kTriangle : kDownFilter;
+}
+
+// Returns the sample of a layer for light, rounded half up.
+int16_t SampleOf(int16_t light) {
+  return static_cast<int16_t>((light + 1) >> (kLightBits - simd::kLayerBits));
+}
+
+// Splits `pairs` pairs of pixels of row y of the centre view's light, from pair `first` on.
+void SplitLight(const Input& picture, int32_t y, int32_t first, int32_t pairs, int16_t* even,
+                int16_t* odd) {
+  constexpr int32_t kPairs = 32;
+  int16_t rgb[6 * kPairs + simd::kPadding / sizeof(int16_t)];
+  for (int32_t n = 0; n < pairs; n += kPairs) {
+    const int32_t some = Min(kPairs, pairs - n);
+    picture.Light(0, 2 * (first + n), y, 2 * some, rgb);
+    for (int32_t k = 0; k < some; ++k) {
+      for (int32_t c = 0; c < 3; ++c) {
+        even[3 * (n + k) + c] = SampleOf(rgb[6 * k + c]);
+        odd[3 * (n + k) + c] = SampleOf(rgb[6 * k + 3 + c]);
+      }
+    }
   }
 }
 
@@ -73,25 +110,43 @@ void Interleave(const int16_t* even, const int16_t* odd, int32_t width, int16_t*
 
 }  // namespace
 
-void DownsampleLayer(const Kernels& kernels, const LayerPlane& from, const Range& columns,
-                     const ResampleScratch& scratch, const LayerPlane& to) {
+void DownsampleLayer(const Kernels& kernels, const LayerPlane& from, const simd::HalfBand& filter,
+                     const Range& columns, const ResampleScratch& scratch, const LayerPlane& to) {
   const auto split = [&](int32_t y, int32_t first, size_t pairs, int16_t* even, int16_t* odd) {
     kernels.DeinterleavePhases(from.samples.Row(y) + 6 * first, pairs, even, odd);
   };
   const auto sample = [&](int32_t y, int32_t n) { return from.samples.Row(y)[n]; };
-  Downsample(kernels, split, sample, from.width, from.height, columns, scratch, to);
+  const SplitPlane<decltype(split), decltype(sample)> plane = {split, sample, from.width,
+                                                               from.height};
+  Downsample(kernels, plane, filter, columns, scratch, to);
 }
 
 void DownsamplePicture(const Kernels& kernels, const Input& picture, int32_t layer,
                        const Range& columns, const ResampleScratch& scratch, const LayerPlane& to) {
-  if (layer == 1) {
+  if (layer == 1 && picture.reads_codes) {
     const auto split = [&](int32_t y, int32_t first, size_t pairs, int16_t* even, int16_t* odd) {
       kernels.WidenPhases(picture.centre.Row(y) + 6 * first, pairs, *picture.transfer, even, odd);
     };
     const auto sample = [&](int32_t y, int32_t n) {
       return picture.transfer->samples[picture.centre.Row(y)[n]];
     };
-    Downsample(kernels, split, sample, picture.width, picture.height, columns, scratch, to);
+    const SplitPlane<decltype(split), decltype(sample)> plane = {split, sample, picture.width,
+                                                                 picture.height};
+    Downsample(kernels, plane, FilterOf(picture), columns, scratch, to);
+    return;
+  }
+  if (layer == 1) {
+    const auto split = [&](int32_t y, int32_t first, size_t pairs, int16_t* even, int16_t* odd) {
+      SplitLight(picture, y, first, static_cast<int32_t>(pairs), even, odd);
+    };
+    const auto sample = [&](int32_t y, int32_t n) {
+      int16_t rgb[3 + simd::kPadding / sizeof(int16_t)];
+      picture.Light(0, n / 3, y, 1, rgb);
+      return SampleOf(rgb[n % 3]);
+    };
+    const SplitPlane<decltype(split), decltype(sample)> plane = {split, sample, picture.width,
+                                                                 picture.height};
+    Downsample(kernels, plane, FilterOf(picture), columns, scratch, to);
     return;
   }
   const Range pairs = PairsOf(columns);
@@ -102,7 +157,7 @@ void DownsamplePicture(const Kernels& kernels, const Input& picture, int32_t lay
   const Range wanted = {Max(2 * pairs.first, 0), Min(2 * pairs.last, one.width)};
   one.samples = {scratch.above - 3 * wanted.first, SamplesOf(wanted), 0, one.rows.first};
   DownsamplePicture(kernels, picture, 1, wanted, scratch, one);
-  DownsampleLayer(kernels, one, columns, scratch, to);
+  DownsampleLayer(kernels, one, FilterOf(picture), columns, scratch, to);
 }
 
 void UpsampleByTwo(const Kernels& kernels, const LayerRect& in, int32_t first,

@@ -62,7 +62,8 @@ void DownsamplePicture(const simd::Kernels& kernels, const Input& picture, int32
 
 // Computes some columns of all rows of `to`, which is layer 2, from the whole layer 1. The result
 // is the same as with DownsamplePicture.
-void DownsampleLayer(const simd::Kernels& kernels, const LayerPlane& from, const Range& columns,
+void DownsampleLayer(const simd::Kernels& kernels, const LayerPlane& from,
+                     const simd::HalfBand& filter, const Range& columns,
                      const ResampleScratch& scratch, const LayerPlane& to);
 
 // Samples of a rectangle of a layer.

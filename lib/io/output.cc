@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "lib/base/fixed.h"
+#include "lib/io/deep.h"
 
 namespace starfocus {
 namespace {
@@ -31,16 +32,12 @@ void WritePair(const Output& out, const Range& rows, const Plane<uint8_t>& from,
     WriteRow(out, PixelsOf(out, from, y), y);
   }
   const int32_t lower = Min(upper + 1, out.rect.height - 1);
-  if (!out.image.is_yuv || lower >= rows.last) return;
+  if (!HasRowPairs(out.image.format) || lower >= rows.last) return;
   const uint8_t* const above = upper < rows.first ? out.odd_row : PixelsOf(out, from, upper);
   WriteChroma(*out.kernels, above, PixelsOf(out, from, lower), out.rect.width, upper, out.image);
 }
 
 }  // namespace
-
-Output OutputOf(const starfocus_image& image, const Rect& rect, uint8_t* odd_row) {
-  return {&simd::BestImageKernels(), PlanesOf<uint8_t>(image), rect, odd_row, {}, 1};
-}
 
 void CopyColumns(const Output& out, const Plane<uint8_t>& from, int32_t y, int32_t first,
                  int32_t last) {
@@ -49,8 +46,10 @@ void CopyColumns(const Output& out, const Plane<uint8_t>& from, int32_t y, int32
               from.Row(y) + 3 * static_cast<size_t>(first), 3 * static_cast<size_t>(last - first));
 }
 
-starfocus_status StoreRows(const Output& out, const Range& rows, const Plane<uint8_t>& from,
-                           int32_t most_jobs, Jobs* jobs) {
+namespace {
+
+starfocus_status StoreCodes(const Output& out, const Range& rows, const Plane<uint8_t>& from,
+                            int32_t most_jobs, Jobs* jobs) {
   const Rect& rect = out.rect;
   if (out.image.IsPacked()) {
     for (int32_t y = rows.first; y < rows.last; ++y) {
@@ -70,6 +69,71 @@ starfocus_status StoreRows(const Output& out, const Range& rows, const Plane<uin
   if (out.image.is_yuv && inside.last % 2 != 0 && inside.last < rect.height) {
     std::memcpy(out.odd_row, PixelsOf(out, from, inside.last - 1),
                 3 * static_cast<size_t>(rect.width));
+  }
+  return status;
+}
+
+// Stores a deep row in an image of a deep format. The chroma of a pair of rows is written together
+// with its lower row.
+void StoreDeepRow(const Output& out, const PictureRows& from, int32_t y, int32_t first) {
+  const Rect& rect = out.rect;
+  const auto row = [&](int32_t at) {
+    const ptrdiff_t x = rect.x;
+    return DeepRow{from.deep.Row(rect.y + at) + 3 * x, from.alpha.Row(rect.y + at) + x};
+  };
+  const DeepRow here = row(y);
+  WriteDeep(*out.tables, here, rect.width, y, out.image);
+  const int32_t format = out.image.format;
+  if (format == STARFOCUS_FORMAT_P210) {
+    WriteDeepChroma(*out.tables, here.rgb, here.rgb, rect.width, y, out.image);
+  }
+  if (!HasRowPairs(format) || (y % 2 == 0 && y + 1 < rect.height)) return;
+  const uint16_t* above = here.rgb;
+  if (y % 2 != 0) {
+    above = y > first ? row(y - 1).rgb : reinterpret_cast<const uint16_t*>(out.odd_row);
+  }
+  WriteDeepChroma(*out.tables, above, here.rgb, rect.width, y - y % 2, out.image);
+}
+
+// Converts deep rows to codes, with their alpha if the output has alpha.
+void Dither(const Output& out, const Range& rows, const PictureRows& from) {
+  const Rect& rect = out.rect;
+  for (int32_t y = rows.first; y < rows.last; ++y) {
+    const uint16_t* const alpha = from.alpha.Row(y) + rect.x;
+    DitherRow(*out.tables, {from.deep.Row(y) + 3 * static_cast<ptrdiff_t>(rect.x), alpha}, rect.x,
+              y, rect.width, out.image.has_alpha,
+              out.dithered.Row(y) + 3 * static_cast<ptrdiff_t>(rect.x));
+    uint8_t* const to = out.dithered_alpha.Row(y) + rect.x;
+    for (int32_t x = 0; x < rect.width; ++x) {
+      to[x] = static_cast<uint8_t>((alpha[x] + (1 << kLightBits >> 1)) >> kLightBits);
+    }
+  }
+}
+
+}  // namespace
+
+starfocus_status StoreRows(const Output& given, const Range& rows, const PictureRows& from,
+                           int32_t most_jobs, Jobs* jobs) {
+  if (!from.is_deep()) return StoreCodes(given, rows, from.codes, most_jobs, jobs);
+  Output out = given;
+  out.dithered.first = out.dithered_alpha.first = rows.first;
+  out.alpha = {out.dithered_alpha.data, out.dithered_alpha.stride, 0, rows.first};
+  out.alpha_step = 1;
+  const int32_t count = Min(most_jobs, rows.count());
+  const Range inside = {rows.first - out.rect.y, rows.last - out.rect.y};
+  const bool is_deep = IsDeep(out.image.format);
+  const starfocus_status status = ForEach(count, jobs, [&](int32_t index, int32_t) {
+    const Range part = PartOf(is_deep ? inside : rows, index, count);
+    if (!is_deep) return Dither(out, part, from);
+    for (int32_t y = part.first; y < part.last; ++y) StoreDeepRow(out, from, y, inside.first);
+  });
+  if (!is_deep && status == STARFOCUS_OK) {
+    return StoreCodes(out, rows, out.dithered, most_jobs, jobs);
+  }
+  if (is_deep && HasRowPairs(out.image.format) && inside.last % 2 != 0 &&
+      inside.last < out.rect.height) {
+    std::memcpy(out.odd_row, from.deep.Row(rows.last - 1) + 3 * static_cast<ptrdiff_t>(out.rect.x),
+                6 * static_cast<size_t>(out.rect.width));
   }
   return status;
 }

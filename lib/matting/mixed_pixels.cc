@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/matting/mixed_pixels.h"
 
+#include "lib/io/deep.h"
+
 namespace starfocus {
 namespace {
 
@@ -120,10 +122,39 @@ CentreView::CentreView(const Input& input, const BlockPixels* field)
   copied_ = Clipped({field->x, field->y, field->width, field->height}, input.width, input.height);
 }
 
+namespace {
+
+// Returns true if a colour has a sample of at least `least`.
+bool Reaches(const BoundaryColours& colours, int32_t least) {
+  for (const Colour* colour : {&colours.near, &colours.far, &colours.mixed}) {
+    if (Max(Max((*colour)[0], (*colour)[1]), (*colour)[2]) >= least) return true;
+  }
+  return false;
+}
+
+// Reads the colours at a boundary with their light beyond white. A lamp beyond white makes mixtures
+// white, and so hides how little of a pixel it covers. Not inlined, because its Input of more than
+// 2 KiB would lie on the stack.
+[[gnu::noinline]] bool ReadBright(const Input& in, int32_t x, int32_t y, int side,
+                                  int32_t disparity, int32_t near, int32_t step,
+                                  BoundaryColours* bright) {
+  const Input whole = DeepWholeOf(in);
+  *bright = ReadColours(CentreView(whole), x, y, side, disparity, near, step);
+  return Reaches(*bright, (kLightWhite >> kExcessBits) + 1);
+}
+
+}  // namespace
+
 Mixture FindMixture(const CentreView& centre, int32_t x, int32_t y, int side, int32_t disparity,
                     int32_t near, int32_t step, int32_t contrast_fade) {
   const BoundaryColours shown = ReadColours(centre, x, y, side, disparity, near, step);
   const Input* const captured = centre.input().captured;
+  BoundaryColours bright;
+  if (centre.input().deep != nullptr && centre.layer() == 0 &&
+      (captured != nullptr || Reaches(shown, kLightWhite)) &&
+      ReadBright(centre.input(), x, y, side, disparity, near, step, &bright)) {
+    return Unmix(bright, contrast_fade, shown);
+  }
   if (captured == nullptr || centre.layer() > 0) return Unmix(shown, contrast_fade, shown);
   return Unmix(ReadColours(CentreView(*captured), x, y, side, disparity, near, step), contrast_fade,
                shown);
@@ -240,7 +271,10 @@ class PixelSplitter {
       fars.Add(mixture.far, mixture.share);
     }
     if (nearest == INT16_MIN) return false;
-    const int32_t share = RoundShift(most * simd::kSliceWhole, kShareBits);
+    const Input& input = centre_.input();
+    const bool is_excess = input.is_excess && input.deep != nullptr;
+    int32_t share = RoundShift(most * simd::kSliceWhole, kShareBits);
+    if (is_excess && most > 0) share = Max(share, 1);
     const bool is_rim = rims_ != nullptr && !rims_->RimAt(x, y).IsEmpty();
     if (share == 0 && !is_rim) return false;
     *pixel = {SplitPixel::kBoundary,
@@ -251,8 +285,22 @@ class PixelSplitter {
               disparity,
               share > 0 ? MeanOf(nears) : Colour(),
               share > 0 ? MeanOf(fars) : centre_.ColourAt(x, y)};
+    if (is_excess && share > 0) KeepExcess(centre_.ColourAt(x, y), share, pixel);
     if (is_rim) CleanRim(OutlineAt(x, y), pixel);
     return pixel->share > 0;
+  }
+
+  // The rounded share of a lamp would change its excess, so the brighter surface of a boundary
+  // pixel has what the other surface lacks.
+  static void KeepExcess(const Colour& mixed, int32_t share, SplitPixel* pixel) {
+    for (int c = 0; c < 3; ++c) {
+      int16_t &near = pixel->near.rgb[c], &far = pixel->far.rgb[c];
+      if (near >= far) {
+        near = RestOf(mixed[c], Min(far, mixed[c]), kWhole - share);
+      } else if (share < kWhole) {
+        far = RestOf(mixed[c], Min(near, mixed[c]), share);
+      }
+    }
   }
 
   // Splits a pixel of a contaminated rim that is not a boundary pixel. Returns false if the pixel

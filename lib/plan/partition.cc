@@ -233,7 +233,6 @@ class Partition {
     const Rect& rect = block->rect;
     const int32_t layer = Min(rules_.renderer->layer(stats, rules_.demand), rules_.max_layer);
     block->gathers = false;
-    block->has_highlights = rules_.has_highlights;
     block->layer = layer;
     block->n = Min(Views(stats.r_max, layer), rules_.max_n);
     block->rendered = LayerFrame(rect, layer);

@@ -39,9 +39,8 @@ struct Block {
   int32_t layer;  // Layer L.
   int32_t n;      // N, the number of views along the radius.
   bool gathers;   // True: the cells that GatherMap selects are blurred without views.
-  // True: views may show highlights, so the block is rendered for light and for excess separately.
-  bool has_highlights;
-  uint64_t cost;  // Predicted time in picoseconds.
+  bool passes[3] = {true, false, false};  // Passes (lib/engine/engine.h) that the block needs.
+  uint64_t cost;                          // Predicted time in picoseconds.
 };
 
 // Rules by which PartitionBlock chooses blocks. The rules are the same for all blocks of a
@@ -57,8 +56,7 @@ struct PartitionRules {
   int32_t around;        // largest distance in cells over which a pixel may splat
   int32_t largest_side;  // largest allowed side of a block
   int32_t max_layer;
-  bool gathers;         // True: smooth cells are blurred without views.
-  bool has_highlights;  // Value of Block::has_highlights for all blocks.
+  bool gathers;  // True: smooth cells are blurred without views.
 };
 
 // Node of the quadtree. `best` is the predicted time of one block or of its children, whichever is

@@ -175,6 +175,18 @@ void CountSurfaces(const LayeredDepth& surfaces, starfocus_layer_report* counts)
   }
 }
 
+// Removes the light of hidden surfaces that no view shows. A lamp beside a nearer surface would
+// otherwise continue behind it, and become brighter than it is.
+void ClearHidden(LayeredDepth* surfaces) {
+  const size_t row = static_cast<size_t>(surfaces->stride);
+  for (int k = 1; k < simd::kSurfaces; ++k) {
+    for (size_t c = 0; c < 3; ++c) {
+      std::memset(surfaces->rgb[k] + c * surfaces->plane, 0,
+                  row * static_cast<size_t>(surfaces->height) * sizeof(int16_t));
+    }
+  }
+}
+
 // Finds the surfaces of the rectangle and copies the rectangle's centre view to the rows of
 // CentreRow. Returns the position of the rectangle in `scratch->surfaces`, in pixels.
 Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* accumulators) {
@@ -191,7 +203,11 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
     std::memcpy(CentreRow(accumulators + static_cast<size_t>(y) * row, inner.width),
                 field.Rgb(inner.x, inner.y + y), row * sizeof(*field.rgb));
   }
-  InpaintHidden(*job.input->kernels, job.layer, scratch->fill, &scratch->surfaces);
+  if (job.input->runs != nullptr && job.input->views == 1) {
+    ClearHidden(&scratch->surfaces);
+  } else {
+    InpaintHidden(*job.input->kernels, job.layer, scratch->fill, &scratch->surfaces);
+  }
   CountSurfaces(scratch->surfaces, job.counts);
   RemoveFocusRange(job.grid->focus, &scratch->surfaces);
   FindStripRanges(*job.input->kernels, scratch->surfaces);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/conformance/reference.h"
 
+#include <algorithm>
+#include <array>
+
 #include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
 #include "tests/support/transfer_curve.h"
@@ -43,7 +46,7 @@ bool HasHighlights(const test::Scene& scene) {
 }
 
 // Loads the excess of a scene: the light of highlights beyond white. A clipped sample has an excess
-// of one white.
+// of its light.
 LightField LoadExcess(const test::Scene& scene, int transfer) {
   LightField field = Load(scene, transfer);
   const int lamp = std::clamp(scene.width / 32, 16, 128);
@@ -58,10 +61,12 @@ LightField LoadExcess(const test::Scene& scene, int transfer) {
       const int run =
           std::min(RunThrough(scene, view, x, y, 1, 0), RunThrough(scene, view, x, y, 0, 1));
       const double share = std::clamp(2 - double(run) / lamp, 0.0, 1.0);
-      for (size_t c = 0; c < 3; ++c) {
-        const double step = std::max(0, codes[c] - 250) / 5.0;
-        colour[c] = 255 * step * step * share;
-      }
+      // The second largest code decides for all colours.
+      std::array<uint8_t, 3> sorted = {codes[0], codes[1], codes[2]};
+      std::sort(sorted.begin(), sorted.end());
+      const double step = std::max(0, sorted[1] - 250) / 5.0;
+      const Colour& light = picture.light[picture.At(x, y)];
+      for (size_t c = 0; c < 3; ++c) colour[c] = light[c] * step * step * share;
     });
   }
   return field;
@@ -112,8 +117,9 @@ struct Taps {
 
 // Subsamples a picture by two. The result has half the size plus one pixel, with edges repeated.
 // Disparities are taken from every second pixel.
-Picture Down(const Picture& from) {
-  const Taps taps(1.28);
+Picture Down(const Picture& from, bool excess) {
+  Taps taps(1.28);
+  if (excess) taps.near = 0.5, taps.far = 0;
   const double unit = 1 / (taps.centre + 2 * (taps.near + taps.far));
   const auto filtered = [&](const auto& at) {
     return unit *
@@ -132,11 +138,12 @@ Picture Down(const Picture& from) {
   return to;
 }
 
-// Returns the centre view at layers 0, 1 and 2, with disparities in pixels of the picture.
-std::vector<Picture> MakeLayers(const Picture& picture) {
+// Returns the centre view at layers 0, 1 and 2, with disparities in pixels of the picture. Layers
+// of the excess of lamps have the filter 1 2 1.
+std::vector<Picture> MakeLayers(const Picture& picture, bool excess) {
   std::vector<Picture> layers = {picture};
   for (int layer = 1; layer <= 2; ++layer) {
-    layers.push_back(Down(layers.back()));
+    layers.push_back(Down(layers.back(), excess));
     Picture& to = layers.back();
     ForEachPixel(to.width, to.height, [&](int x, int y) {
       to.disparities[to.At(x, y)] = picture.disparities[picture.Nearest(x << layer, y << layer)];
@@ -244,20 +251,18 @@ void Paste(const Picture& from, int x0, int y0, Picture* to) {
 }
 
 // For all blocks, adds the rendered views and the cells that are blurred without rendering views to
-// the result. With `excess`, only blocks that may show highlights are rendered. Blocks that may
-// show highlights are at layer 0 and are rendered completely from views.
+// the result.
 void RefocusAll(const LightField& field, const starfocus::Params& params,
                 const test::Config& config, const std::vector<Block>& blocks, bool excess,
                 std::vector<double>* rgb) {
   const Picture& centre = field.at({0, 0});
-  const std::vector<Picture> layers = MakeLayers(centre);
+  const std::vector<Picture> layers = MakeLayers(centre, excess);
   const bool benchmark = params.study.mode == STARFOCUS_MODE_BENCHMARK;
   const double r_max = LargestBlur(params, config.disparity_min, config.disparity_max);
   const int widest = std::max(int(r_max), 32) + 3;  // reach of the most blurred slice
   const Slicing slicing = {size_t(benchmark ? 32 : 16), 5 * (widest + 16) * (widest + 16),
                            benchmark ? 0.125 : 0.375};
   for (const Block& block : blocks) {
-    if (excess && (block.layer > 0 || !block.gathered.empty())) continue;
     const bool by_subaperture = params.study.renderer == STARFOCUS_RENDERER_SLICES && block.n > 0;
     const ApertureShape here = ApertureShape(params).At(block.x, block.y, block.width, block.height,
                                                         centre.width, centre.height);

@@ -425,7 +425,15 @@ class SurfaceFinder {
 SurfaceMap FindLayeredDepth(const LightField& field, const Picture& extended, const Lens& lens,
                             int x0, int y0) {
   SurfaceMap map = SurfaceFinder(field, extended, lens, x0, y0).Find();
-  InpaintHidden(64 << lens.layer, &map);
+  const bool is_excess = !field.begin()->second.light.empty();
+  if (!is_excess || field.size() > 1) {
+    InpaintHidden(64 << lens.layer, &map);
+    return map;
+  }
+  // A lamp does not continue behind a nearer surface that no other view looks behind.
+  for (std::vector<Surface>& surfaces : map.pixels) {
+    for (size_t k = 1; k < surfaces.size(); ++k) surfaces[k].colour = {0, 0, 0};
+  }
   return map;
 }
 

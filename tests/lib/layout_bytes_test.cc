@@ -90,9 +90,9 @@ TEST_CASE("layout: the workspaces for boards do not exceed their recorded sizes"
     size_t most;
   } kBoards[] = {
       // The first three boards have memory for thin structures.
-      {with_coverage(test::BoardConfig(640, 480, 1, 32, 8, 1)), 4566},
-      {with_coverage(test::BoardConfig(1920, 1080, 17, 64, 32, 0)), 14446},
-      {with_coverage(test::BoardConfig(1920, 1080, 1, 64, 32, 0)), 14519},
+      {with_coverage(test::BoardConfig(640, 480, 1, 32, 8, 1)), 4569},
+      {with_coverage(test::BoardConfig(1920, 1080, 17, 64, 32, 0)), 14449},
+      {with_coverage(test::BoardConfig(1920, 1080, 1, 64, 32, 0)), 14522},
       // VGA, one streamed view, blocks of 32 pixels, blurs of up to 8 pixels.
       {test::BoardConfig(640, 480, 1, 32, 8, 1), 1141},
       // Full HD, whole pictures, blocks of 64 pixels, blurs of up to 32 pixels.
@@ -178,7 +178,7 @@ TEST_CASE(
   const starfocus::Scratch* workers = state.scratch;
   const uint32_t* sums = workers[1].sums;
   const uint16_t* weights = state.tables->apertures[0].weights;
-  const uint8_t *out = state.stripe.out, *last_rows = state.stripe.last_rows;
+  const uint8_t *out = state.stripe.out.codes.data, *last_rows = state.stripe.last_rows.codes.data;
   state.rings.map_width = 300;
   state.stream.active = true;
   const starfocus::EngineState preview =
@@ -189,10 +189,10 @@ TEST_CASE(
   CHECK(preview.tables->apertures[0].weights == weights);
   CHECK(preview.jobs == state.jobs);
   CHECK(preview.rings.disparity.data == state.rings.disparity.data);
-  CHECK(preview.stripe.last_rows == nullptr);  // previews are not streamed
+  CHECK(preview.stripe.last_rows.codes.data == nullptr);  // previews are not streamed
   CHECK(state.config.width == 300);
-  CHECK(state.stripe.out == out);
-  CHECK(state.stripe.last_rows == last_rows);
+  CHECK(state.stripe.out.codes.data == out);
+  CHECK(state.stripe.last_rows.codes.data == last_rows);
   CHECK_FALSE(state.stream.active);   // the preview overwrites the rows of the stream
   CHECK(state.rings.map_width == 0);  // and the table of the map's columns
 }

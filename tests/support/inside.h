@@ -82,7 +82,7 @@ inline std::vector<uint8_t> RenderOne(const starfocus::Block& block, starfocus_e
   const starfocus::EngineState& state = StateOf(engine);
   const size_t stride = 3 * static_cast<size_t>(state.config.width);
   std::vector<uint8_t> out(stride * static_cast<size_t>(state.config.height), kPoison);
-  starfocus::RefocusBlock(state, block, {out.data(), stride, 0, 0}, &state.scratch[0]);
+  starfocus::RefocusBlock(state, block, {{out.data(), stride, 0, 0}}, &state.scratch[0]);
   return out;
 }
 

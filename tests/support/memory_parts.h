@@ -56,7 +56,7 @@ inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
       {"disparities: ring of rows", false, e.rings.disparity.data},
       {"views: rings of rows", false, e.rings.views[0]},
       {"images", false, e.rings.columns},
-      {"finished rows", false, e.stripe.out},
+      {"finished rows", false, e.stripe.out.codes.data},
       {"layer 1: ring of rows", false, e.layers.planes[1].samples.data},
       {"layer 2: ring of rows", false, e.layers.planes[2].samples.data},
       {"8x8 cells", false, e.stripe.cells.cells},

@@ -180,7 +180,7 @@ void Deblock(benchmark::State& state) {
   map.columns = kSmallestBlocks;
   map.rows = kSmallestBlocks;
   const Deblocking job = {&map,
-                          {picture.data(), 3 * kSide, 0, 0},
+                          {{picture.data(), 3 * kSide, 0, 0}},
                           kSide,
                           kSide,
                           0,

@@ -66,10 +66,10 @@ void BlockBench::HoldDisparity() {
   ReadDepth(simd::BestImageKernels(), {given, rule, map.width, map.height, nullptr},
             {0, 0, map.width, map.height}, disparity);
   // The engine only reads the pixels.
-  Plane<uint8_t> views[STARFOCUS_MAX_VIEWS];
+  StoredViews views;
   for (size_t i = 0; i < light_field_->views.size(); ++i) {
     const Image& view = light_field_->views[i];
-    views[i] = {const_cast<uint8_t*>(view.pixels.data()), view.stride(), 0, 0};
+    views.codes[i] = {const_cast<uint8_t*>(view.pixels.data()), view.stride(), 0, 0};
   }
   engine_->input = InputOf(config, *engine_->kernels, views, disparity, {});
 }
@@ -132,7 +132,7 @@ uint64_t BlockBench::Time(const BlockTask& task) {
     return renderer;
   }();
   engine_->lens.renderer = &kAlways;
-  const Plane<uint8_t> out = {picture_.pixels.data(), picture_.stride(), 0, 0};
+  const PictureRows out = {{picture_.pixels.data(), picture_.stride(), 0, 0}};
   const uint64_t start = ThreadNanoseconds();
   RefocusBlock(*engine_, task.block, out, engine_->scratch);
   return 1000 * (ThreadNanoseconds() - start);

@@ -3,11 +3,17 @@
  * Formats of pictures and depth maps. Part of starfocus.h.
  *
  * Every engine reads and writes packed STARFOCUS_FORMAT_RGB, and reads float disparities as
- * starfocus_depth_float describes them. All other formats require STARFOCUS_FEATURE_IMAGES.
+ * starfocus_depth_float describes them. All other formats require STARFOCUS_FEATURE_IMAGES or, from
+ * STARFOCUS_FORMAT_RGB16 on, STARFOCUS_FEATURE_DEEP, which includes the former.
  *
  * The engine converts each row when the row is read or written, and never copies a whole picture.
  * The output bytes are the same as after three separate steps: convert all inputs to packed RGB and
- * float disparities by the formulas below, refocus, and convert the result.
+ * float disparities by the formulas below, refocus, and convert the result. Engines with
+ * STARFOCUS_FEATURE_DEEP convert all inputs to light: codes of 8 bits count as 257 times as large
+ * codes of 16 bits, which starfocus_config.transfer converts. Negative half floats and NaN count as
+ * 0, and light beyond 64 times white is limited. Integers have straight alpha, and half floats are
+ * premultiplied. In formats of 8 bits, the fourth sample of these engines' outputs is the refocused
+ * alpha, and colours that lie between two codes are dithered.
  */
 #ifndef STARFOCUS_IMAGE_H_
 #define STARFOCUS_IMAGE_H_
@@ -22,10 +28,10 @@ extern "C" {
 /** Largest value of starfocus_image.pixel_stride for RGB formats. */
 #define STARFOCUS_MAX_PIXEL_STRIDE 256
 
-/** Layout of a picture; samples have 8 bits. RGB formats are named by the order of bytes in memory,
- *  YUV formats as in libyuv. Chroma planes have half the width and height of the picture, rounded
- *  up. A chroma sample belongs to 2 x 2 pixels, or to fewer pixels at the right and bottom edges of
- *  pictures of odd size. */
+/** Layout of a picture. Samples have 8 bits unless stated otherwise. RGB formats are named by the
+ * order of bytes in memory, YUV formats as in libyuv. Chroma planes have half the width and height
+ * of the picture, rounded up. A chroma sample belongs to 2 x 2 pixels, or to fewer pixels at the
+ * right and bottom edges of pictures of odd size. */
 typedef enum starfocus_format {
   STARFOCUS_FORMAT_RGB = 0,  /**< planes[0]: R, G, B. */
   STARFOCUS_FORMAT_BGR = 1,  /**< planes[0]: B, G, R. */

@@ -197,6 +197,10 @@ STARFOCUS_API const char* starfocus_status_string(starfocus_status status);
 /** Enables polygons and cat's eyes, and reserves larger tables. Without this feature, calls reject
  *  polygons and cat's eyes with STARFOCUS_ERROR_FEATURE. */
 #define STARFOCUS_FEATURE_SHAPES 8u
+/** Enables pictures of more than 8 bits, light up to 64 times white, and alpha, besides the formats
+ *  of STARFOCUS_FEATURE_IMAGES. Light has 15 bits up to white, and 9 to 15 bits beyond. 8-bit
+ *  outputs are dithered where they are not flat. */
+#define STARFOCUS_FEATURE_DEEP 16u
 /** @} */
 
 /** Treatment of unknown values of disparity maps: NaN, infinite, or the map's invalid value. */

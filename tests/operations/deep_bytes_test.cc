@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests pictures of more than 8 bits, light beyond white and alpha. The oracles are the picture of
+// 8 bits, the linearity of refocusing in light, and the picture of another way to ask for it.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/operations/operations.h"
+#include "tests/support/config.h"
+#include "tests/support/images.h"
+#include "tests/support/inside.h"
+#include "tests/support/refocused.h"
+#include "tests/support/scenes.h"
+#include "tests/support/simd_targets.h"
+#include "tests/support/test_scene.h"
+
+namespace deep_test {
+namespace {
+
+double LightOfSrgb(double code) {
+  return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+}
+
+double HalfToLight(uint16_t half) { return double(test::DepthMemory::FloatOf(half)); }
+
+int Channels(int format) {
+  return format == STARFOCUS_FORMAT_RGBA16 || format == STARFOCUS_FORMAT_RGBA_HALF ? 4 : 3;
+}
+
+// A picture of an RGB format of 16 bits. Rows have `padding` more words than the picture.
+struct Words {
+  Words(int w, int h, int f, int padding = 0)
+      : width(w),
+        height(h),
+        format(f),
+        stride(size_t(w * Channels(f) + padding)),
+        words(stride * size_t(h), 0xCDCD) {}
+
+  uint16_t* At(int x, int y) { return &words[size_t(y) * stride + size_t(x * Channels(format))]; }
+  starfocus_image Image(int row = 0) {
+    starfocus_image image = {format, 0, 0, 0, {At(0, row), nullptr, nullptr}, {2 * stride, 0, 0}};
+    return image;
+  }
+
+  int width, height, format;
+  size_t stride;
+  std::vector<uint16_t> words;
+};
+
+// A light field whose views are deep. `scene` has the map.
+struct DeepField {
+  test::Scene scene;
+  std::vector<Words> views;
+
+  // word(rgba, codes): sets the words of a pixel whose codes of 8 bits are given.
+  template <class Word>
+  DeepField(const test::Scene& of, int format, const Word& word) : scene(of) {
+    for (int view = 0; view < of.views(); ++view) {
+      views.emplace_back(of.width, of.height, format, view);
+      for (int y = 0; y < of.height; ++y) {
+        for (int x = 0; x < of.width; ++x) word(views.back().At(x, y), of.Pixel(view, x, y));
+      }
+    }
+  }
+
+  starfocus_light_field Field(int row = 0) {
+    starfocus_light_field field = scene.Field(row);
+    for (size_t k = 0; k < views.size(); ++k) field.views[k] = views[k].Image(row);
+    return field;
+  }
+};
+
+test::Config DeepConfig(const test::Scene& scene, double max_blur = 24) {
+  test::Config config = test::ConfigFor(scene, max_blur);
+  config.features |= STARFOCUS_FEATURE_DEEP;
+  return config;
+}
+
+Words Refocused(test::Engine* engine, const starfocus::Params& params, DeepField* field,
+                int format) {
+  Words out(field->scene.width, field->scene.height, format, 3);
+  const starfocus_light_field light_field = field->Field();
+  const starfocus_image image = out.Image();
+  REQUIRE(engine->status() == STARFOCUS_OK);
+  REQUIRE(starfocus_refocus(engine->get(), &params, &light_field, &image, nullptr) == STARFOCUS_OK);
+  return out;
+}
+
+const auto kExpand = [](uint16_t* to, const uint8_t* codes) {
+  for (int c = 0; c < 3; ++c) to[c] = uint16_t(257 * codes[c]);
+};
+
+// Half floats of the light of the codes, `gain` times as bright.
+auto Bright(double gain) {
+  return [gain](uint16_t* to, const uint8_t* codes) {
+    for (int c = 0; c < 3; ++c) {
+      to[c] = test::DepthMemory::HalfOf(gain * LightOfSrgb(codes[c] / 255.0));
+    }
+  };
+}
+
+TEST_CASE("deep: codes of 8 bits in 16 bits give the picture of 8 bits") {
+  for (const starfocus_mode mode : test::kModes) {
+    for (const int views : {1, 5}) {
+      const test::Scene scene = test::LayeredScene(150, 140, views, 8, 21);
+      const starfocus::Params params = test::Params(3, 1, mode);
+      const test::Output expected = test::OutputOf(test::ConfigFor(scene, 24), params, scene);
+      DeepField field(scene, STARFOCUS_FORMAT_RGB16, kExpand);
+      test::Engine engine(DeepConfig(scene));
+      Words out = Refocused(&engine, params, &field, STARFOCUS_FORMAT_RGB16);
+      int worst = 0;
+      for (int y = 0; y < scene.height; ++y) {
+        for (int x = 0; x < scene.width; ++x) {
+          for (int c = 0; c < 3; ++c) {
+            const int code = 257 * expected.Pixel(x, y)[c];
+            worst = std::max(worst, std::abs(out.At(x, y)[c] - code));
+          }
+        }
+      }
+      CAPTURES(mode, views);
+      CHECK(worst <= 257);
+      CHECK(out.words[out.stride - 1] == 0xCDCD);
+    }
+  }
+}
+
+TEST_CASE("deep: every level of a constant picture stays within 2^-14 of white") {
+  test::Scene scene = test::LayeredScene(96, 70, 5, 8, 22);
+  for (const int format : {STARFOCUS_FORMAT_RGB16, STARFOCUS_FORMAT_RGBA16}) {
+    test::Config config = DeepConfig(scene);
+    config.transfer = STARFOCUS_TRANSFER_NONE;
+    test::Engine engine(config);
+    for (int level = 0; level < 65536; level += level < 64 ? 1 : 397) {
+      const uint16_t code = uint16_t(level);
+      DeepField field(scene, format, [&](uint16_t* to, const uint8_t*) {
+        for (int c = 0; c < Channels(format); ++c) to[c] = c == 3 ? uint16_t{65535} : code;
+      });
+      Words out = Refocused(&engine, test::Params(2, 1, STARFOCUS_MODE_BLOCK), &field, format);
+      int worst = 0;
+      for (int y = 0; y < scene.height; ++y) {
+        for (int x = 0; x < scene.width; ++x) {
+          for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(out.At(x, y)[c] - level));
+          if (Channels(format) == 4) CHECK(out.At(x, y)[3] == 65535);
+        }
+      }
+      CAPTURES(format, level);
+      // Two levels of light, of which a level of 2^-14 has 4 codes. Edges may have one code more.
+      CHECK(worst <= 5);
+    }
+  }
+}
+
+TEST_CASE("deep: light beyond white is refocused like light below it") {
+  for (const int views : {1, 5}) {
+    for (const starfocus_mode mode : test::kModes) {
+      const test::Scene scene = test::LayeredScene(150, 140, views, 8, 23);
+      test::Config config = DeepConfig(scene);
+      config.features &= ~STARFOCUS_FEATURE_COVERAGE;  // which depends on colours
+      test::Engine engine(config);
+      const starfocus::Params params = test::Params(3, 1, mode);
+      constexpr int kHalf = STARFOCUS_FORMAT_RGB_HALF;
+      DeepField dark(scene, kHalf, Bright(1)), bright(scene, kHalf, Bright(32));
+      Words low = Refocused(&engine, params, &dark, kHalf);
+      Words high = Refocused(&engine, params, &bright, kHalf);
+      double sum = 0, worst = 0;
+      for (int y = 0; y < scene.height; ++y) {
+        for (int x = 0; x < scene.width; ++x) {
+          for (int c = 0; c < 3; ++c) {
+            const double error = HalfToLight(high.At(x, y)[c]) / 32 - HalfToLight(low.At(x, y)[c]);
+            worst = std::max(worst, std::fabs(error));
+            sum += error * error;
+          }
+        }
+      }
+      CAPTURES(views, mode);
+      CHECK(worst < 0.1);
+      CHECK(std::sqrt(sum / (3 * scene.width * scene.height)) < 0.003);
+    }
+  }
+}
+
+TEST_CASE("deep: all ways to ask for a picture give the same words") {
+  const test::Scene scene = test::LayeredScene(150, 141, 5, 8, 24);
+  for (const int format : {STARFOCUS_FORMAT_RGB_HALF, STARFOCUS_FORMAT_RGBA_HALF}) {
+    test::Random random(5);
+    DeepField field(scene, format, [&](uint16_t* to, const uint8_t* codes) {
+      Bright(codes[0] > 200 ? 20 : 1)(to, codes);
+      const double alpha = codes[1] > 100 ? 1 : codes[1] / 100.0;
+      if (Channels(format) == 3) return;
+      for (int c = 0; c < 3; ++c) to[c] = test::DepthMemory::HalfOf(alpha * HalfToLight(to[c]));
+      to[3] = test::DepthMemory::HalfOf(alpha);
+    });
+    test::Config config = DeepConfig(scene);
+    config.features |= STARFOCUS_FEATURE_STREAMING;
+    config.max_workers = 3;
+    const starfocus::Params params = test::Params(3, 1, STARFOCUS_MODE_BLOCK);
+    test::Engine first(config), engine(config);
+    const Words whole = Refocused(&first, params, &field, format);
+    const auto same = [&](Words* part, int x0, int y0) {
+      for (int y = 0; y < part->height; ++y) {
+        if (std::memcmp(part->At(0, y), const_cast<Words&>(whole).At(x0, y0 + y),
+                        size_t(2 * Channels(format) * part->width)) != 0) {
+          return false;
+        }
+      }
+      return true;
+    };
+    for (const starfocus::simd::Kernels* kernels : test::SimdTargets()) {
+      test::UseKernels(kernels, engine.get());
+      Words out = Refocused(&engine, params, &field, format);
+      CHECK(same(&out, 0, 0));
+    }
+    {
+      starfocus::Params part = params;
+      part.region = {37, 61, 90, 70};
+      Words out(90, 70, format, 1);
+      const starfocus_light_field light_field = field.Field();
+      const starfocus_image image = out.Image();
+      REQUIRE(starfocus_refocus(engine.get(), &part, &light_field, &image, nullptr) ==
+              STARFOCUS_OK);
+      CHECK(same(&out, 37, 61));
+    }
+    {
+      test::PreparedMemory memory(engine);
+      const starfocus_light_field light_field = field.Field();
+      const starfocus_prepared* prepared = memory.Prepare(engine.get(), light_field);
+      Words out(scene.width, scene.height, format);
+      const starfocus_image image = out.Image();
+      REQUIRE(starfocus_refocus_prepared(engine.get(), &params, prepared, &image, nullptr) ==
+              STARFOCUS_OK);
+      CHECK(same(&out, 0, 0));
+    }
+    Words out(scene.width, scene.height, format);
+    REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
+    for (int pushed = 0, pulled = 0; pulled < scene.height;) {
+      int32_t consumed = 0, written = 0;
+      const starfocus_light_field rows = field.Field(std::min(pushed, scene.height - 1));
+      REQUIRE(starfocus_stream_push(engine.get(), &rows, std::min(7, scene.height - pushed),
+                                    &consumed) == STARFOCUS_OK);
+      const starfocus_image image = out.Image(pulled);
+      REQUIRE(starfocus_stream_pull(engine.get(), &image, std::min(11, scene.height - pulled),
+                                    &written, nullptr) == STARFOCUS_OK);
+      pushed += consumed;
+      pulled += written;
+    }
+    CHECK(same(&out, 0, 0));
+  }
+}
+
+}  // namespace
+}  // namespace deep_test
