@@ -72,12 +72,16 @@ Result<DecodedPicture> DecodeImage(const std::string& where, const Bytes& bytes)
 }
 
 Result<Image> ReadImage(const std::string& path) {
+  Result<DecodedPicture> picture = ReadPicture(path);
+  if (!picture) return picture.error();
+  return std::move(picture->image);
+}
+
+Result<DecodedPicture> ReadPicture(const std::string& path) {
   try {
     const Result<Bytes> bytes = ReadFileIf(path, MayBePicture);
     if (!bytes) return bytes.error();
-    Result<DecodedPicture> picture = DecodeImage(path, *bytes);
-    if (!picture) return picture.error();
-    return std::move(picture->image);
+    return DecodeImage(path, *bytes);
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "read it");
   }

@@ -18,6 +18,9 @@ namespace starfocus {
 // this header support pictures of up to 2^28 pixels.
 Result<Image> ReadImage(const std::string& path);
 
+// Reads a picture with its metadata and, if the file has more than 8 bits or alpha, all its bits.
+Result<DecodedPicture> ReadPicture(const std::string& path);
+
 // Decodes a picture in memory; `where` appears only in error messages. For PNG and WebP, the
 // metadata contains the profile, EXIF and the complete XMP packet. readers/jpeg_parts.h reads the
 // metadata of JPEG files.

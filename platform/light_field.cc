@@ -6,12 +6,15 @@
 #include <iterator>
 #include <system_error>
 
+#include "platform/decoders/deep.h"
+#include "platform/deep_image.h"
 #include "platform/folder.h"
 #include "platform/helper/helper.h"
 #include "platform/image_io.h"
 #include "platform/levels.h"
 #include "platform/progress.h"
 #include "platform/text.h"
+#include "platform/writers/deep_picture.h"
 #include "platform/writers/png.h"
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
@@ -45,25 +48,31 @@ struct SaveJob {
   Progress progress;
 
   std::string PathOf(int32_t index) const {
-    return Join(folder, ViewName(positions[size_t(index)]) + ".png");
+    const bool is_half = !light_field.deep.empty() && light_field.deep[0].is_half;
+    return Join(folder, ViewName(positions[size_t(index)]) + (is_half ? ".exr" : ".png"));
+  }
+  Error Write(int32_t index) const {
+    const std::string path = PathOf(index);
+    if (light_field.deep.empty()) return WriteImage(path, light_field.views[size_t(index)]);
+    std::vector<std::string> notes;
+    return WriteDeepImage(path, light_field.deep[size_t(index)], {}, &notes);
   }
   static void Run(void* data, int32_t index, int32_t) {
     SaveJob* self = static_cast<SaveJob*>(data);
-    self->errors[size_t(index)] =
-        WriteImage(self->PathOf(index), self->light_field.views[size_t(index)]);
+    self->errors[size_t(index)] = self->Write(index);
     self->progress.Step();
   }
 };
 
 struct LoadJob {
   const std::vector<ViewFile>& files;
-  std::vector<Result<Image>> views;
+  std::vector<Result<DecodedPicture>> views;
   Progress progress;
 
   static void Run(void* data, int32_t index, int32_t) {
     LoadJob* self = static_cast<LoadJob*>(data);
     const std::string& path = self->files[size_t(index)].path;
-    self->views[size_t(index)] = ReadImage(path);
+    self->views[size_t(index)] = ReadPicture(path);
     self->progress.Step();
   }
 };
@@ -95,11 +104,21 @@ starfocus_disparity_stats MeasureDisparity(const FloatMap& map) {
   return stats;
 }
 
-starfocus_light_field EngineRows(const LightField& light_field, int first) {
+starfocus_image EngineImage(const DeepImage& deep, int first) {
+  constexpr starfocus_format kFormats[2][2] = {
+      {STARFOCUS_FORMAT_RGB16, STARFOCUS_FORMAT_RGBA16},
+      {STARFOCUS_FORMAT_RGB_HALF, STARFOCUS_FORMAT_RGBA_HALF}};
+  starfocus_image image = starfocus_image_rgb(deep.row(first), 2 * deep.row_samples());
+  image.format = kFormats[deep.is_half ? 1 : 0][deep.channels - 3];
+  return image;
+}
+
+starfocus_light_field EngineRows(const LightField& light_field, int first, bool deep) {
   starfocus_light_field rows = starfocus::NewLightField();
   for (size_t i = 0; i < light_field.views.size(); ++i) {
     const Image& view = light_field.views[i];
-    rows.views[i] = starfocus_image_rgb(view.row(first), view.stride());
+    rows.views[i] = deep ? EngineImage(light_field.deep[i], first)
+                         : starfocus_image_rgb(view.row(first), view.stride());
   }
   const FloatMap& map = light_field.disparity;
   const size_t before = size_t(first) * size_t(map.width);
@@ -144,9 +163,31 @@ bool HasDisparity(const std::string& folder) {
   return fs::exists(DisparityPath(folder), error);
 }
 
+namespace {
+
+// Takes the deep pictures of the views, if there is any. Views of 8 bits are expanded. Codes of
+// different transfers become half floats.
+void TakeDeep(std::vector<Result<DecodedPicture>>* views, LightField* light_field) {
+  const auto is_deep = [](const Result<DecodedPicture>& view) { return view->deep.has_value(); };
+  if (std::none_of(views->begin(), views->end(), is_deep)) return;
+  for (size_t k = 0; k < views->size(); ++k) {
+    std::optional<DeepImage>& deep = (*views)[k]->deep;
+    light_field->deep.push_back(deep ? std::move(*deep) : Widen(light_field->views[k], {}));
+  }
+  const DeepImage& first = light_field->deep[0];
+  const bool alike =
+      std::all_of(light_field->deep.begin(), light_field->deep.end(), [&](const DeepImage& deep) {
+        return deep.is_half || (!first.is_half && deep.transfer == first.transfer);
+      });
+  if (alike) return;
+  for (DeepImage& deep : light_field->deep) deep = deep.is_half ? std::move(deep) : ToHalf(deep);
+}
+
+}  // namespace
+
 Result<LightField> LoadViewFiles(const std::vector<ViewFile>& files, ThreadRunner* runner) {
   LoadJob load = {files,
-                  std::vector<Result<Image>>(files.size(), Image()),
+                  std::vector<Result<DecodedPicture>>(files.size(), DecodedPicture()),
                   {"reading views", static_cast<int64_t>(files.size())}};
   const auto count = static_cast<int32_t>(files.size());
   if (runner != nullptr) {
@@ -158,11 +199,12 @@ Result<LightField> LoadViewFiles(const std::vector<ViewFile>& files, ThreadRunne
   for (size_t k = 0; k < files.size(); ++k) {
     if (!load.views[k]) return load.views[k].error();
     result.positions.push_back(files[k].position);
-    result.views.push_back(std::move(*load.views[k]));
+    result.views.push_back(std::move(load.views[k]->image));
     const Image& view = result.views[k];
     Error error = CheckSize(files[k].path, view.width, view.height, result.views[0]);
     if (error) return error;
   }
+  TakeDeep(&load.views, &result);
   return result;
 }
 
@@ -217,11 +259,11 @@ Error SaveLightField(const std::string& folder, const LightField& light_field,
   OutputFolder made;
   if (Error error = made.Create(folder)) return error;
   const Positions& given = light_field.positions;
-  const auto views = static_cast<int>(light_field.views.size());
+  const auto views = static_cast<int>(std::max(light_field.views.size(), light_field.deep.size()));
   SaveJob save = {folder,
                   light_field,
                   given.empty() ? StarPositions(views) : given,
-                  std::vector<Error>(light_field.views.size()),
+                  std::vector<Error>(size_t(views)),
                   {"writing views", views}};
   const int status = ThreadRunner::Run(runner, SaveJob::Run, &save, views);
   if (status != 0) return Expected(folder, "a thread runner", "none");

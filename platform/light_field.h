@@ -19,6 +19,9 @@ namespace starfocus {
 
 struct LightField {
   std::vector<Image> views;
+  // The same views, if their files have more than 8 bits or alpha; otherwise empty. Codes of
+  // integers have one transfer.
+  std::vector<DeepImage> deep;
   Positions positions;  // positions of the views; empty: positions of starfocus_view_position
   FloatMap disparity;
   // starfocus_light_field.coverage in rows without padding; empty: no coverage
@@ -38,9 +41,12 @@ starfocus_depth_map EngineMap(const FloatMap& map);
 // Measures a map. All fields of the result are 0 if the map is empty.
 starfocus_disparity_stats MeasureDisparity(const FloatMap& map);
 
+// Returns a starfocus_image that points to the rows of a picture from `first` on.
+starfocus_image EngineImage(const DeepImage& deep, int first = 0);
+
 // Returns a starfocus_light_field that points to the rows from `first` on, for a call of the
-// engine.
-starfocus_light_field EngineRows(const LightField& light_field, int first = 0);
+// engine. With `deep`, the views are light_field.deep.
+starfocus_light_field EngineRows(const LightField& light_field, int first = 0, bool deep = false);
 
 // Returns the path of the folder's disparity map, whether or not the file exists.
 std::string DisparityPath(const std::string& folder);
@@ -85,8 +91,9 @@ Error LoadCoverage(const std::string& path, LightField* light_field);
 Result<LightField> LoadLightField(const std::string& folder, const Positions& wanted,
                                   ThreadRunner* runner = nullptr);
 
-// Creates the folder of a light field if necessary. Writes the views as PNG, several at a time on
-// `runner`. Writes the coverage and the disparity map of the light field unless they are empty.
+// Creates the folder of a light field if necessary. Writes the views, or their deep pictures if
+// there are any, as PNG or, for half floats, OpenEXR, several at a time on `runner`. Writes the
+// coverage and the disparity map of the light field unless they are empty.
 Error SaveLightField(const std::string& folder, const LightField& light_field,
                      ThreadRunner* runner);
 

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kStarSets[] = {1, 5, 9, 17};
-constexpr const char* kExtensions[] = {".png", ".ppm", ".jpg"};
+constexpr const char* kExtensions[] = {".png", ".ppm", ".jpg", ".exr"};
 constexpr const char* kPair[] = {"im0.png", "im1.png"};  // Views at (0, 0) and (1, 0).
 constexpr double kDecimals = 1e4;                        // Names have up to four decimals.
 constexpr double kAlike = 0.5 / kDecimals;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "platform/clock.h"
+#include "platform/deep_image.h"
 #include "platform/file.h"
 #include "platform/problem.h"
 #include "starfocus/experimental.h"
@@ -96,22 +97,33 @@ Error EngineRun::Start(const std::string& where, const EngineTask& task) {
 
 Error EngineRun::Prepare(const std::string& where, const EngineTask& task) {
   starfocus_status status = SetCallbacks(task, false);
-  if (status == STARFOCUS_OK) status = engine_.Prepare(EngineRows(*task.light_field));
+  if (status == STARFOCUS_OK)
+    status = engine_.Prepare(EngineRows(*task.light_field, 0, task.deep_views));
   starfocus_prepared_size(&task.config, &prepared_bytes_, nullptr);
   return Outcome(where, status, engine_.problem(), prepared_bytes_);
 }
 
 Result<EngineResult> EngineRun::Refocus(const std::string& where, const EngineTask& task) {
   EngineResult result;
-  result.picture = MakePicture(task);
+  MakePicture(task, &result);
   if (Error error = Run(where, task, nullptr, &result)) return error;
   return result;
 }
 
-Image EngineRun::MakePicture(const EngineTask& task) {
+void EngineRun::MakePicture(const EngineTask& task, EngineResult* result) {
   const starfocus_region& region = task.params.region;
-  return region.width > 0 ? Image(region.width, region.height)
-                          : Image(task.config.width, task.config.height);
+  const bool whole = region.width == 0;
+  const int width = whole ? task.config.width : region.width;
+  const int height = whole ? task.config.height : region.height;
+  if (!task.deep_picture) {
+    result->picture = Image(width, height);
+    return;
+  }
+  const DeepImage& first = task.light_field->deep[0];
+  result->deep = DeepImage(width, height, first.channels);
+  result->deep.is_half = first.is_half;
+  result->deep.transfer = first.transfer;
+  result->deep.bits = first.bits;
 }
 
 Error EngineRun::RefocusRows(const std::string& where, const EngineTask& task, RowGate* rows,
@@ -129,7 +141,7 @@ Result<EngineResult> EngineRun::RefocusAfter(const std::string& where, const Eng
   const starfocus_image image = starfocus_image_rgb(picture.pixels.data(), picture.stride());
   const starfocus_previous previous = {sizeof previous, &rows, &image};
   EngineResult result;
-  result.picture = MakePicture(task);
+  MakePicture(task, &result);
   if (Error error = Run(where, task, &previous, &result)) return error;
   return result;
 }
@@ -152,21 +164,31 @@ starfocus_status EngineRun::SetCallbacks(const EngineTask& task, bool is_picture
   return engine_.SetCallbacks(callbacks);
 }
 
+namespace {
+
+// Returns the rows from `first` on of the picture that the task computes.
+starfocus_image OutputRows(const EngineTask& task, const EngineResult& result, int first) {
+  if (task.deep_picture) return EngineImage(result.deep, first);
+  return starfocus_image_rgb(result.picture.row(first), result.picture.stride());
+}
+
+}  // namespace
+
 starfocus_status EngineRun::RunStream(const EngineTask& task, EngineResult* result) {
-  Image* out = &result->picture;
+  const int height = task.deep_picture ? result->deep.height : result->picture.height;
   starfocus_status status = engine_.StreamBegin(task.params);
   int pushed = 0, pulled = 0;
-  while (status == STARFOCUS_OK && pulled < out->height) {
+  while (status == STARFOCUS_OK && pulled < height) {
     int32_t consumed = 0, written = 0;
-    if (pushed < out->height) {
-      status = engine_.StreamPush(EngineRows(*task.light_field, pushed),
-                                  std::min(kStreamRows, out->height - pushed), &consumed);
+    if (pushed < height) {
+      status = engine_.StreamPush(EngineRows(*task.light_field, pushed, task.deep_views),
+                                  std::min(kStreamRows, height - pushed), &consumed);
       pushed += consumed;
     }
     if (status != STARFOCUS_OK) break;
-    const starfocus_image to = starfocus_image_rgb(out->row(pulled), out->stride());
-    status = engine_.StreamPull(to, std::min(kStreamRows, out->height - pulled), &written,
-                                &result->report);
+    const starfocus_image to = OutputRows(task, *result, pulled);
+    status =
+        engine_.StreamPull(to, std::min(kStreamRows, height - pulled), &written, &result->report);
     pulled += written;
     if (status == STARFOCUS_OK && consumed == 0 && written == 0) return STARFOCUS_ERROR_STATE;
   }
@@ -175,10 +197,9 @@ starfocus_status EngineRun::RunStream(const EngineTask& task, EngineResult* resu
 
 Error EngineRun::Run(const std::string& where, const EngineTask& task,
                      const starfocus_previous* previous, EngineResult* result) {
-  Image& out = result->picture;
   result->workspace_bytes = workspace_bytes_;
   result->prepared_bytes = prepared_bytes_;
-  const starfocus_image to = starfocus_image_rgb(out.pixels.data(), out.stride());
+  const starfocus_image to = OutputRows(task, *result, 0);
   starfocus::Params params = task.params;
   params.previous = previous;
   starfocus_status status = SetCallbacks(task, true);
@@ -190,10 +211,12 @@ Error EngineRun::Run(const std::string& where, const EngineTask& task,
   } else if (prepared_bytes_ > 0) {
     status = engine_.RefocusPrepared(params, to, &result->report);
   } else {
-    status = engine_.Refocus(params, EngineRows(*task.light_field), to, &result->report);
+    status = engine_.Refocus(params, EngineRows(*task.light_field, 0, task.deep_views), to,
+                             &result->report);
   }
   result->report.layers = nullptr;  // the result may be moved
   result->seconds = Seconds() - start;
+  if (task.deep_picture) result->picture = ToImage(result->deep);
   return Outcome(where, status, engine_.problem());
 }
 

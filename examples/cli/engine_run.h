@@ -58,10 +58,15 @@ struct EngineTask {
   starfocus_observer observer = {sizeof(starfocus_observer), nullptr, nullptr, nullptr, nullptr};
   int threads = 1;
   bool stream = false;  // true to push and pull rows instead of whole pictures
+  // True: the engine reads light_field->deep. `config` must have STARFOCUS_FEATURE_DEEP.
+  bool deep_views = false;
+  // True: the picture has the kind of the first deep view. False: it has 8 bits.
+  bool deep_picture = false;
 };
 
 struct EngineResult {
-  Image picture;
+  Image picture;   // of 8 bits
+  DeepImage deep;  // with EngineTask::deep_picture, from which `picture` is made
   starfocus_report report = starfocus::NewReport();
   starfocus_layer_report layers[STARFOCUS_LAYERS] = {};
   double seconds = 0;  // processing time in the engine, in seconds
@@ -83,8 +88,8 @@ class EngineRun {
 
   Result<EngineResult> Refocus(const std::string& where, const EngineTask& task);
 
-  // Returns a picture of the size that the task computes.
-  static Image MakePicture(const EngineTask& task);
+  // Makes the pictures of a result, of the size that the task computes.
+  static void MakePicture(const EngineTask& task, EngineResult* result);
 
   // Refocuses into result->picture, which MakePicture has made. Declares finished rows to `rows`,
   // unless task.stream is true.

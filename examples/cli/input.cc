@@ -288,7 +288,12 @@ Result<Capture> ReadInput(const InputOptions& options) {
 Result<Capture> OpenInput(const InputOptions& options) {
   Result<Capture> capture = ReadInput(options);
   if (capture) TellNotes(*capture);
+  if (capture) TellLost(*capture);
   return capture;
+}
+
+void TellLost(const Capture& capture) {
+  for (const std::string& note : capture.lost) TellNote(capture.path, note);
 }
 
 void TellNotes(const Capture& capture) {

@@ -49,7 +49,10 @@ Result<Capture> ReadInput(const InputOptions& options);
 // Prints notes about the input to stderr.
 void TellNotes(const Capture& capture);
 
-// Calls ReadInput and TellNotes.
+// Prints notes about what pictures of 8 bits lose.
+void TellLost(const Capture& capture);
+
+// Calls ReadInput, TellNotes and TellLost.
 Result<Capture> OpenInput(const InputOptions& options);
 
 // Reads the map, and the views at the positions `views`, or all views if `views` is empty. A

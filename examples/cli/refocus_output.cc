@@ -121,7 +121,8 @@ void AddOutputOptions(Command* command, OutputOptions* options) {
   AddOptions(
       {
           {"-o,--output", "FILE",
-           "Picture to write (.png, .ppm, .jpg or .webp), or the folder for the pictures "
+           "Picture to write (.png, .ppm, .jpg or .webp; with all bits .png, .tif, .exr, .avif or "
+           ".heic), or the folder for the pictures "
            "of several inputs; - or FORMAT:-, such as jpg:-, writes to standard output; required "
            "unless --compare or --show is given",
            &options->out},
@@ -191,9 +192,9 @@ Error PlanOutput(const OutputOptions& options, bool sweep, bool region) {
 }
 
 PictureWriter::PictureWriter(const OutputOptions& options, const PictureOptions& how,
-                             const Image* picture, int threads)
-    : options_(options), how_(how), picture_(picture) {
-  if (threads < 2 || options.depth_photo || !IsJpeg(options.out)) return;
+                             const Image* picture, int threads, std::function<Error()> write)
+    : options_(options), how_(how), picture_(picture), write_(std::move(write)) {
+  if (threads < 2 || options.depth_photo || write_ || !IsJpeg(options.out)) return;
   const auto encode = [this]() -> Result<Bytes> {
     try {
       return EncodePicture(options_.out, *picture_, how_, &rows_);
@@ -213,6 +214,8 @@ Error PictureWriter::Write(const Refocused& refocused) {
   Error error;
   if (encoded_.valid()) {
     error = WriteFile(options_.out, encoded_.get());
+  } else if (write_) {
+    error = write_();
   } else if (options_.depth_photo) {
     error = WriteDepthPhoto(options_.out, how_, refocused);
   } else if (!options_.out.empty()) {

@@ -5,6 +5,7 @@
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_OUTPUT_H_
 
 #include <cstdint>
+#include <functional>
 #include <future>
 #include <memory>
 #include <string>
@@ -56,8 +57,9 @@ Error PlanOutput(const OutputOptions& options, bool sweep, bool region);
 class PictureWriter {
  public:
   // @param picture the picture, whose rows may be computed later; must outlive the PictureWriter
+  // @param write writes options.out in another way than as `picture`; may be null
   PictureWriter(const OutputOptions& options, const PictureOptions& how, const Image* picture,
-                int threads);
+                int threads, std::function<Error()> write);
   ~PictureWriter() { rows_.FinishAll(); }
   PictureWriter(const PictureWriter&) = delete;
   PictureWriter& operator=(const PictureWriter&) = delete;
@@ -73,6 +75,7 @@ class PictureWriter {
   const OutputOptions& options_;
   const PictureOptions& how_;
   const Image* const picture_;
+  const std::function<Error()> write_;
   RowGate rows_;
   std::future<Result<Bytes>> encoded_;  // invalid: Write encodes the picture
 };

@@ -174,11 +174,11 @@ bool Scene::HasForeground() const {
                      [](const Surface& surface) { return surface.foreground; });
 }
 
-std::optional<Scene> MakeScene(const std::string& name, uint32_t seed) {
+std::optional<Scene> MakeScene(const std::string& name, uint32_t seed, double glare) {
   if (name == "portrait") return MakePortrait();
   if (name == "wires") return MakeWires();
   if (name == "ramp") return MakeRamp();
-  if (name == "lamps") return MakeLamps();
+  if (name == "lamps") return MakeLamps(glare);
   if (name == "hair") return MakeHair(seed);
   if (name == "grass") return MakeGrass(seed);
   if (name == "cutout") return MakeCutout(seed);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "examples/scene/noise.h"
+#include "platform/deep_image.h"
 #include "starfocus/starfocus.hpp"
 
 namespace starfocus {
@@ -21,7 +22,6 @@ constexpr int kTile = 16;
 constexpr int kViewGrid = 4;       // Samples along each side of a pixel of a view.
 constexpr int kFineGrid = 8;       // Samples along each side of a pixel near strands.
 constexpr int kCoverageGrid = 16;  // Samples along each side of a pixel of the coverage.
-constexpr int kLensSamples = 256;  // Approximate number of samples per pixel of the ground truth.
 // cos and sin of the golden angle and of 1/256 of a turn. Multiplying a direction by these
 // constants generates sequences of directions without library functions.
 constexpr double kGoldenCos = -0.7373688780783197, kGoldenSin = 0.6754902942615238;
@@ -34,14 +34,14 @@ LensPoint Turn(LensPoint p, LensPoint by) {
   return {p.x * by.x - p.y * by.y, p.x * by.y + p.y * by.x};
 }
 
-// Returns points on the unit disc in a sunflower pattern. About kLensSamples of the points pass the
+// Returns points on the unit disc in a sunflower pattern. About `samples` of the points pass the
 // opening. The radii follow the inverse of the distribution of the squared radius s. With the
 // fall-off (3), the density of s is proportional to 1 / (s + cot^2(theta))^2.
-std::vector<LensPoint> LensPoints(const SceneOpening& opening) {
+std::vector<LensPoint> LensPoints(const SceneOpening& opening, int samples) {
   std::vector<LensPoint> points;
   LensPoint direction = {1, 0};
   const double fall_off = opening.fall_off();
-  const int count = static_cast<int>(kLensSamples / opening.LeastShare());
+  const int count = static_cast<int>(samples / opening.LeastShare());
   for (int k = 0; k < count; ++k) {
     const double share = (k + 0.5) / count;
     double square = share;
@@ -207,19 +207,15 @@ Color RayTracer::LensPixel(const Lens& lens, const std::vector<size_t>& candidat
   return sum * (1.0 / count);
 }
 
-void RayTracer::RenderTile(const Lens& lens, int x0, int y0, Image* image) const {
+void RayTracer::RenderTile(const Lens& lens, int x0, int y0, SceneLight* picture) const {
   const std::vector<size_t> candidates = Candidates(lens, x0, y0);
   const auto is_fine = [](const Surface& surface) { return surface.strands != nullptr; };
   const int grid = Any(candidates, is_fine) ? kFineGrid : kViewGrid;
   for (int y = y0; y < std::min(y0 + kTile, height_); ++y) {
     for (int x = x0; x < std::min(x0 + kTile, width_); ++x) {
-      const Color color =
-          curve_.Encode(lens.aperture > 0 ? LensPixel(lens, candidates, x, y)
-                                          : ViewPixel(lens, candidates, x, y, grid));
-      uint8_t* pixel = image->row(y) + 3 * x;
-      pixel[0] = ToByte(color.r);
-      pixel[1] = ToByte(color.g);
-      pixel[2] = ToByte(color.b);
+      picture->pixels[size_t(y) * size_t(width_) + size_t(x)] =
+          lens.aperture > 0 ? LensPixel(lens, candidates, x, y)
+                            : ViewPixel(lens, candidates, x, y, grid);
     }
   }
 }
@@ -253,28 +249,52 @@ void RayTracer::ForCentrePixels(Progress* progress, int steps, const Body& body)
   });
 }
 
-Image RayTracer::Render(const Lens& lens, Progress* progress) const {
-  Image image(width_, height_);
+SceneLight RayTracer::Render(const Lens& lens, Progress* progress) const {
+  SceneLight picture = {width_, height_, std::vector<Color>(size_t(width_) * size_t(height_))};
   ForBands(progress, lens.aperture > 0 ? kTruthCost : 1, [&](int y) {
-    for (int x = 0; x < width_; x += kTile) RenderTile(lens, x, y, &image);
+    for (int x = 0; x < width_; x += kTile) RenderTile(lens, x, y, &picture);
   });
+  return picture;
+}
+
+Image RayTracer::Encoded(const SceneLight& picture) const {
+  Image image(picture.width, picture.height);
+  uint8_t* to = image.pixels.data();
+  for (const Color& light : picture.pixels) {
+    const Color color = curve_.Encode(light);
+    for (const double code : {color.r, color.g, color.b}) *to++ = ToByte(code);
+  }
   return image;
 }
 
-Image RayTracer::View(double u, double v, Progress* progress) const {
+DeepImage RayTracer::Halves(const SceneLight& picture) const {
+  DeepImage image(picture.width, picture.height, 3);
+  image.is_half = true;
+  image.transfer = STARFOCUS_TRANSFER_NONE;
+  uint16_t* to = image.samples.data();
+  for (const Color& light : picture.pixels) {
+    for (const double value : {light.r, light.g, light.b}) {
+      *to++ = HalfOfFloat(static_cast<float>(value / 255));
+    }
+  }
+  return image;
+}
+
+SceneLight RayTracer::ViewLight(double u, double v, Progress* progress) const {
   Lens lens;
   lens.u = u;
   lens.v = v;
   return Render(lens, progress);
 }
 
-Image RayTracer::Truth(const SceneFocus& focus, double aperture, const SceneOpening& opening,
-                       Progress* progress) const {
+SceneLight RayTracer::TruthLight(const SceneFocus& focus, double aperture,
+                                 const SceneOpening& opening, int samples,
+                                 Progress* progress) const {
   Lens lens;
   lens.focus = {focus.far / scale_, focus.near / scale_};
   lens.aperture = aperture;
   lens.opening = &opening;
-  lens.points = LensPoints(opening);
+  lens.points = LensPoints(opening, samples);
   lens.turns = Turns();
   return Render(lens, progress);
 }

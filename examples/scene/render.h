@@ -75,6 +75,16 @@ struct SceneFocus {
   double far, near;
 };
 
+// Light of a picture, in rows without padding; white is 255.
+struct SceneLight {
+  int width, height;
+  std::vector<Color> pixels;
+};
+
+// Approximate number of lens samples per pixel of the ground truth. A lamp 64 times as bright as
+// white needs more, because each sample that meets it adds a quarter of white with 256.
+inline constexpr int kLensSamples = 256, kHdrLensSamples = 1024;
+
 class RayTracer {
  public:
   // The colour of a pixel is the average linear light of its rays. `transfer` defines how codes
@@ -88,7 +98,10 @@ class RayTracer {
 
   // Renders the view of a pinhole at (u, v). Every pixel is the mean of the light over the area of
   // the pixel.
-  Image View(double u, double v, Progress* progress) const;
+  SceneLight ViewLight(double u, double v, Progress* progress) const;
+  Image View(double u, double v, Progress* progress) const {
+    return Encoded(ViewLight(u, v, progress));
+  }
 
   // Returns the disparity of the centre view at pixel centres, in pixels per unit of u.
   FloatMap Disparity() const;
@@ -102,8 +115,16 @@ class RayTracer {
   // focus, the rays of a pixel coincide inside the range and diverge from its ends. A set of
   // strands must not extend beyond an end of the range, because only its nearest strand on each
   // straight part of a ray is found.
+  SceneLight TruthLight(const SceneFocus& focus, double aperture, const SceneOpening& opening,
+                        int samples, Progress* progress) const;
   Image Truth(const SceneFocus& focus, double aperture, const SceneOpening& opening,
-              Progress* progress) const;
+              Progress* progress) const {
+    return Encoded(TruthLight(focus, aperture, opening, kLensSamples, progress));
+  }
+
+  // Returns a picture as codes of 8 bits, and as half floats of linear light, of which 1 is white.
+  Image Encoded(const SceneLight& picture) const;
+  DeepImage Halves(const SceneLight& picture) const;
 
   // Converts a point of the canvas to the coordinates of the nearest pixel.
   void ToPixel(double x, double y, int* pixel_x, int* pixel_y) const;
@@ -133,8 +154,8 @@ class RayTracer {
   bool Any(const std::vector<size_t>& candidates, const Kind& kind) const;
   // Returns the ray of the centre view through pixel position (x, y).
   Ray CentreRay(double x, double y) const;
-  void RenderTile(const Lens& lens, int x0, int y0, Image* image) const;
-  Image Render(const Lens& lens, Progress* progress) const;
+  void RenderTile(const Lens& lens, int x0, int y0, SceneLight* picture) const;
+  SceneLight Render(const Lens& lens, Progress* progress) const;
   // Calls body(y) for the first row y of every band of tiles. Each row counts as `steps` of
   // progress.
   template <class Body>

@@ -97,15 +97,18 @@ struct Scene {
 };
 
 inline constexpr uint32_t kSceneSeed = 1;  // default seed
+// Factor of the codes of bright lamps: of lamps four times as bright as white, and 64 times.
+inline constexpr double kGlare = 1.825, kHdrGlare = 5.9;
 
 // Creates the scene "portrait", "wires", "ramp", "lamps", "hair", "grass" or "cutout". Returns
 // nullopt for any other name. The seed determines the strands of hair, grass and cutout.
-std::optional<Scene> MakeScene(const std::string& name, uint32_t seed = kSceneSeed);
+std::optional<Scene> MakeScene(const std::string& name, uint32_t seed = kSceneSeed,
+                               double glare = kGlare);
 
 Scene MakePortrait();
 Scene MakeWires();
 Scene MakeRamp();
-Scene MakeLamps();
+Scene MakeLamps(double glare);
 Scene MakeHair(uint32_t seed);
 Scene MakeGrass(uint32_t seed);
 Scene MakeCutout(uint32_t seed);

@@ -224,13 +224,11 @@ Scene MakeRamp() {
 
 namespace {
 
-// The scene `lamps`: a street at night with lamps that are up to four times as bright as white.
+// The scene `lamps`: a street at night with lamps that are brighter than white.
 
 constexpr double kDarkWall = -8;
-// Colours of lamps as codes, at most as bright as white. kGlare makes the light of a lamp four
-// times as bright.
+// Colours of lamps as codes, at most as bright as white.
 constexpr Color kWarm = {255, 214, 150}, kCold = {190, 220, 255}, kRed = {255, 60, 40};
-constexpr double kGlare = 1.825;
 
 void AddLamp(double x, double y, double d, double radius, const Color& color,
              std::vector<Surface>* out) {
@@ -256,7 +254,7 @@ void AddHouse(std::vector<Surface>* out) {
 
 }  // namespace
 
-Scene MakeLamps() {
+Scene MakeLamps(double glare) {
   Scene scene;
   scene.name = "lamps";
   scene.description = "a street at night, with lamps brighter than white";
@@ -265,14 +263,14 @@ Scene MakeLamps() {
   for (int k = 0; k < 18; ++k) {
     const double x = -490 + 57 * k, y = 120 + 60 * ((k * 5) % 7) / 7.0;
     const Color color = k % 5 == 0 ? kRed : k % 3 == 0 ? kCold : kWarm;
-    AddLamp(x, y, kDarkWall + 1 + 0.2 * (k % 4), 3 + k % 4, color * (k % 2 == 0 ? kGlare : 1.0),
+    AddLamp(x, y, kDarkWall + 1 + 0.2 * (k % 4), 3 + k % 4, color * (k % 2 == 0 ? glare : 1.0),
             out);
   }
   for (int k = 0; k < 3; ++k) {  // lamp posts
     const double x = -330 + 320 * k, d = -3 + 2.5 * k;
     out->push_back(Wire({x, -160, d}, {x, 900, d}, 5,
                         {PaintTwist, {30, 34, 40}, {14, 16, 20}, 1.5, 410u + uint32_t(k)}));
-    AddLamp(x, -180, d + 0.1, 20, kWarm * kGlare, out);
+    AddLamp(x, -180, d + 0.1, 20, kWarm * glare, out);
   }
   out->push_back(
       Ellipsoid({-40, 330, 6}, {130, 190, 2}, {PaintTweed, {30, 32, 40}, {70, 70, 74}, 1.1, 420}));

@@ -46,6 +46,7 @@ void CompleteDeep(int bits, DecodedPicture* picture) {
   if (!picture->deep) return;
   picture->bits = bits;
   DeepImage& deep = *picture->deep;
+  deep.bits = bits;
   deep.transfer = deep.is_half ? STARFOCUS_TRANSFER_NONE : transfer;
   picture->is_transparent = DropOpaqueAlpha(&deep);
   if (picture->image.pixels.empty() || IsHdr(transfer)) picture->image = ToImage(deep);

@@ -97,7 +97,7 @@ Result<Capture> OpenFolder(const std::string& folder) {
   if (!capture) return capture;
   const auto none = [](const Bytes&) { return false; };  // reads only the beginning of the file
   const Result<Bytes> beginning = ReadFileIf(capture->files[0].path, none);
-  if (beginning) NoteSampleBits(SampleBitsOf(*beginning), &capture->notes);
+  if (beginning) NoteSampleBits(SampleBitsOf(*beginning), &capture->lost);
   return capture;
 }
 
@@ -135,10 +135,12 @@ Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options
   }
   capture.format = photo.format;
   capture.metadata = std::move(photo.metadata);
-  capture.deep = std::move(photo.deep);
+  if (photo.deep && !pair) capture.light_field.deep.push_back(std::move(*photo.deep));
+  if (!pair) capture.gain_map = std::move(photo.gain_map);
   capture.deep_colours = std::move(photo.deep_colours);
   capture.facts = std::move(photo.facts);
   capture.notes = std::move(photo.notes);
+  capture.lost = std::move(photo.lost);
   if (photo.is_blurred) {
     capture.facts.emplace_back("portrait", "the camera has blurred the background");
     capture.notes.push_back(

@@ -52,11 +52,11 @@ struct Capture {
   int subject_x = 0, subject_y = 0;  // Pixel of the subject as stated by EXIF.
   double focus = NAN;                // Disparity in focus; NaN: unknown.
   Metadata metadata;
-  // Picture of a photo with more than 8 bits or alpha, and its colours (DepthPhoto::deep).
-  std::optional<DeepImage> deep;
-  ColourDescription deep_colours;
+  ColourDescription deep_colours;  // Colours of light_field.deep of a photo.
+  GainMap gain_map;                // Light of a photo beyond white; no levels: no gain map.
   Facts facts;
   std::vector<std::string> notes;
+  std::vector<std::string> lost;  // Notes on what pictures of 8 bits lose.
   LightField light_field;  // Filled by OpenCapture for one-file inputs, otherwise by LoadCapture.
 };
 

@@ -10,11 +10,11 @@ void Pass(Channel* channel, DepthPhoto* photo) {
   // The structured binding fails to compile if DepthPhoto gets another field. A helper process must
   // not choose files, so that no path is passed. Helpers do not apply the orientation. `survey` has
   // no figures before the map is complete.
-  auto& [format, picture, deep, deep_colours, map, map_problem, unused_path, gain_map, matte, is_mask,
-         unused_matte_path, matte_notes, right, unused_right_path, meaning, guesses_near,
+  auto& [format, picture, deep, deep_colours, map, map_problem, unused_path, gain_map, matte,
+         is_mask, unused_matte_path, matte_notes, right, unused_right_path, meaning, guesses_near,
          unused_survey, orientation, unused_applied_orientation, focal_35mm, is_blurred, has_focus,
          focus_x, focus_y, has_subject, subject_x, subject_y, is_ready, is_linear, focus_value,
-         metadata, facts, notes] = *photo;
+         metadata, facts, notes, lost] = *photo;
   for (Image* image : {&picture, &right}) Pass(channel, image);
   Pass(channel, &deep);
   Pass(channel, &deep_colours);
@@ -44,7 +44,7 @@ void Pass(Channel* channel, DepthPhoto* photo) {
     channel->Text(&fact->first);
     channel->Text(&fact->second);
   });
-  for (std::vector<std::string>* list : {&matte_notes, &notes}) {
+  for (std::vector<std::string>* list : {&matte_notes, &notes, &lost}) {
     channel->List(list, [&](std::string* note) { channel->Text(note); });
   }
 }

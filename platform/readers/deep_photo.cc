@@ -57,8 +57,8 @@ void TakePicture(DecodedPicture picture, DepthPhoto* photo) {
   }
   photo->metadata.icc.clear();
   if (largest > 1) {
-    photo->notes.push_back("light brighter than white, up to " + Times(largest) +
-                           ", is clipped in the picture of 8 bits");
+    photo->lost.push_back("light brighter than white, up to " + Times(largest) +
+                          ", is clipped in the picture of 8 bits");
   }
 }
 

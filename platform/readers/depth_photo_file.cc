@@ -339,7 +339,7 @@ Result<DepthPhoto> DecodeExrPhoto(const std::string& where, const Bytes& bytes, 
   if (!picture) return picture.error();
   const bool is_transparent = picture->is_transparent;
   TakePicture(std::move(*picture), &photo);
-  NoteTransparency(is_transparent, &photo.notes);
+  NoteTransparency(is_transparent, photo.deep ? &photo.lost : &photo.notes);
   ChooseProfile(&photo);
   if (!with_map || !HasExrDistances(bytes)) return photo;
   Result<Samples> distances = DecodeExrSamples(where, false, bytes);
@@ -365,8 +365,8 @@ Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool wi
   const bool is_transparent = picture->is_transparent;
   const int bits = std::max(picture->bits, SampleBitsOf(bytes));
   TakePicture(std::move(*picture), &photo);
-  NoteSampleBits(bits, &photo.notes);
-  NoteTransparency(is_transparent, &photo.notes);
+  NoteSampleBits(bits, photo.deep ? &photo.lost : &photo.notes);
+  NoteTransparency(is_transparent, photo.deep ? &photo.lost : &photo.notes);
   ReadExif(&photo);
   ChooseProfile(&photo);
   KeepCaptions(&photo);

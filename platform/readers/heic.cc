@@ -245,8 +245,9 @@ void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
   photo->has_subject = photo->has_subject && agrees;
   TurnPoint(photo->orientation, &photo->subject_x, &photo->subject_y);
   photo->orientation = 1;
-  NoteSampleBits(heif_image_handle_get_luma_bits_per_pixel(handle), &photo->notes);
-  NoteTransparency(heif_image_handle_has_alpha_channel(handle) != 0, &photo->notes);
+  std::vector<std::string>* const notes = photo->deep ? &photo->lost : &photo->notes;
+  NoteSampleBits(heif_image_handle_get_luma_bits_per_pixel(handle), notes);
+  NoteTransparency(heif_image_handle_has_alpha_channel(handle) != 0, notes);
   const size_t profile = heif_image_handle_get_raw_color_profile_size(handle);
   const bool is_rendition = photo->deep && IsHdr(photo->deep->transfer);
   if (profile > 0 && profile <= kMostMetadata && !is_rendition) {

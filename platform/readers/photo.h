@@ -68,7 +68,9 @@ struct DepthPhoto {
   double focus_value = NAN;  // Value of `map` that is in focus; NaN: unknown.
   Metadata metadata;
   Facts facts;
-  std::vector<std::string> notes;  // Assumptions that the user may correct.
+  std::vector<std::string> notes;
+  std::vector<std::string> lost;  // Notes on what `picture` lacks, but `deep` has.  // Assumptions
+                                  // that the user may correct.
 };
 
 }  // namespace starfocus

@@ -183,18 +183,18 @@ Result<Bytes> EncodePng(const std::string& path, const Image& image, const Metad
 
 Result<Bytes> EncodeDeepPng(const std::string& path, const DeepImage& image,
                             const Metadata& metadata, PngSize size) {
+  const bool wide = image.bits > 8;
   Bytes samples;
-  samples.reserve(2 * image.samples.size());
+  samples.reserve((wide ? 2 : 1) * image.samples.size());
   for (const uint16_t sample : image.samples) {
-    samples.push_back(static_cast<uint8_t>(sample >> 8));
-    samples.push_back(static_cast<uint8_t>(sample));
+    samples.push_back(wide ? static_cast<uint8_t>(sample >> 8)
+                           : static_cast<uint8_t>((sample + 128) / 257));
+    if (wide) samples.push_back(static_cast<uint8_t>(sample));
   }
-  const Rows rows = {image.width,
-                     image.height,
-                     16,
-                     image.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
-                     samples.data(),
-                     2 * image.row_samples()};
+  const Rows rows = {
+      image.width,    image.height,
+      wide ? 16 : 8,  image.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
+      samples.data(), (wide ? 2 : 1) * image.row_samples()};
   return Encode(path, rows, metadata, size == PngSize::kSmall ? kSmallLevel : kLevel);
 }
 

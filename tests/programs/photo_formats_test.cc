@@ -431,8 +431,9 @@ TEST_CASE("HEIF: the auxiliary depth picture is read, and more than 8 bits are n
     CHECK(Contains(read(depth.substr(0, size)), "the HEIF file is truncated"));
   }
   const DepthPhoto deep = ValueOf(read(Seed("heif/ten_bits.heic")));
-  REQUIRE(deep.notes.size() == 1);
-  CHECK(Contains(deep.notes[0], "the pixels have 10 bits for each colour"));
+  CHECK(deep.notes.empty());
+  REQUIRE(deep.lost.size() == 1);
+  CHECK(Contains(deep.lost[0], "the pixels have 10 bits for each colour"));
   // The levels of the file increase from 100 to 856 of 1023.
   CHECK(deep.picture.width == 64);
   CHECK(std::abs(deep.picture.row(9)[0] - 25) < 10);

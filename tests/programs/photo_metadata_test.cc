@@ -336,7 +336,7 @@ TEST_CASE("alpha: a note reports transparent pixels, but not an opaque alpha cha
     CAPTURE(&row - rows);
     const DepthPhoto photo = Read("a.png", row.file);
     CHECK(photo.picture.pixels.size() == 6);
-    CHECK(Contains(Joined(photo.notes), "transparent pixels of the picture become opaque") ==
+    CHECK(Contains(Joined(photo.lost), "transparent pixels of the picture become opaque") ==
           row.transparent);
   }
   CHECK(Read("a.png", rows[1].file).picture.pixels == Bytes{1, 2, 3, 4, 5, 6});

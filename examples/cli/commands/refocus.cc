@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -11,6 +12,7 @@
 
 #include "examples/cli/batch.h"
 #include "examples/cli/commands.h"
+#include "examples/cli/deep_output.h"
 #include "examples/cli/engine_run.h"
 #include "examples/cli/input.h"
 #include "examples/cli/pictures.h"
@@ -24,6 +26,7 @@
 #include "platform/image_io.h"
 #include "platform/standard_stream.h"
 #include "platform/terminal_graphics.h"
+#include "platform/writers/deep_picture.h"
 #include "starfocus/experimental.h"
 #include "starfocus/pool.h"
 
@@ -65,12 +68,17 @@ std::vector<OutputPath> ListOutputs(const RefocusOptions& options) {
 
 Error CheckOutputs(const RefocusOptions& options) {
   const std::vector<OutputPath> outputs = ListOutputs(options);
-  Error error = options.output.out.empty() ? Error() : CheckImageOutput(options.output.out);
+  const std::string& out = options.output.out;
+  const auto check = [&](const std::string& path) {
+    const bool is_deep = path == out && options.sweep.empty() && KeepsBits(path);
+    return is_deep ? CheckDeepOutput(path) : CheckImageOutput(path);
+  };
+  Error error = out.empty() ? Error() : check(out);
   for (size_t i = 0; i < outputs.size() && !error; ++i) {
     const std::string& option = outputs[i].option;
     error = option == "--report"    ? CheckTextOutput(outputs[i], OutputKind::kJson)
             : option == "--compare" ? CheckTextOutput(outputs[i], OutputKind::kPage)
-                                    : CheckImageOutput(outputs[i].path);
+                                    : check(outputs[i].path);
   }
   if (error) return error;
   return CheckApart(outputs, {{options.input.path},
@@ -205,7 +213,8 @@ uint64_t BytesOf(const LightField& light_field, const Image& picture) {
 
 // Computes and writes one picture. Shows the picture on `terminal`, unless this is nullopt.
 Error RunOne(const RefocusOptions& options, const PictureOptions& how, const LensPlan& plan,
-             const EngineTask& one, const std::optional<GraphicsTerminal>& terminal, double start) {
+             const Capture& capture, const EngineTask& one,
+             const std::optional<GraphicsTerminal>& terminal, double start) {
   EngineTask task = one;
   std::vector<starfocus_block> blocks;
   if (!options.map.empty()) {
@@ -216,8 +225,17 @@ Error RunOne(const RefocusOptions& options, const PictureOptions& how, const Len
   EngineRun run(task.threads, 1);
   if (Error error = run.Start(InputName(options.input.path), task)) return error;
   EngineResult result;
-  result.picture = EngineRun::MakePicture(task);
-  PictureWriter writer(options.output, how, &result.picture, task.threads);
+  EngineRun::MakePicture(task, &result);
+  std::function<Error()> write;
+  const std::string& out = options.output.out;
+  if (task.deep_picture && KeepsBits(out)) {
+    write = [&] { return WriteDeepResult(out, how, capture, result); };
+  } else if (task.deep_picture && !out.empty()) {
+    write = [&] { return WriteImage(out, result.picture, how); };
+  } else if (WritesGainMap(out, capture) && !options.output.depth_photo) {
+    write = [&] { return WriteUltraHdr(out, how, capture, one, result.picture); };
+  }
+  PictureWriter writer(options.output, how, &result.picture, task.threads, write);
   Error error = run.RefocusRows(InputName(options.input.path), task, writer.rows(), &result);
   if (options.turn != nullptr) options.turn->End(BytesOf(*task.light_field, result.picture));
   if (!error) {
@@ -273,14 +291,17 @@ Error RunInput(const RefocusOptions& options) {
       TellNote(InputName(options.input.path), "the picture is not shown: " + found.error().line());
     }
   }
-  const Result<Loaded> loaded = Load(options, &*plan);
+  Result<Loaded> loaded = Load(options, &*plan);
   if (!loaded) return loaded.error();
   const PictureOptions how = {options.output.quality, loaded->capture.metadata,
                               options.output.small_png ? PngSize::kSmall : PngSize::kQuick};
-  const EngineTask task = MakeTask(*plan, loaded->capture.light_field, loaded->stats,
-                                   loaded->max_blur, !options.report.empty());
-  const Error error = options.sweep.empty() ? RunOne(options, how, *plan, task, terminal, start)
-                                            : RunSweep(options, how, plan->foci, task, start);
+  EngineTask task = MakeTask(*plan, loaded->capture.light_field, loaded->stats, loaded->max_blur,
+                             !options.report.empty());
+  const bool single = options.sweep.empty();
+  Error error = ChooseBits(options.output.out, single, &loaded->capture, &task);
+  if (error) return error;
+  error = single ? RunOne(options, how, *plan, loaded->capture, task, terminal, start)
+                 : RunSweep(options, how, plan->foci, task, start);
   if (!error) TellOutputs(options, *plan);
   return error;
 }

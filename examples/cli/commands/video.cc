@@ -116,6 +116,7 @@ Result<Frame> OpenFrame(const VideoOptions& options, const FrameSource& source, 
   Result<Capture> capture = ReadInput(one);
   if (!capture) return capture.error();
   TellNotes(*capture);
+  TellLost(*capture);
   const bool is_first = video->frames.empty();
   if (is_first) {
     Error error = PlanAperture(options.lens.aperture, *capture).MoveTo(&plan->aperture);

@@ -16,6 +16,7 @@
 #include "platform/image_io.h"
 #include "platform/light_field.h"
 #include "platform/text.h"
+#include "platform/writers/deep_picture.h"
 #include "platform/writers/png.h"
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
@@ -45,6 +46,7 @@ struct SceneOptions {
   std::optional<int> seed;
   std::vector<std::string> truths;
   ShapeOptions shape;
+  bool hdr = false;
 };
 
 struct Plan {
@@ -71,12 +73,15 @@ Result<Truth> ParseTruth(const std::string& text) {
   return Truth{{far, near}, aperture};
 }
 
+// Returns the extension of pictures.
+const char* Extension(const SceneOptions& options) { return options.hdr ? ".exr" : ".png"; }
+
 // Returns the name of the file of a truth. Programs that compare pictures with a truth read the
 // focus and the aperture from this name, and ignore truths with a range in focus.
-std::string TruthName(const Truth& truth, const ShapeOptions& shape) {
+std::string TruthName(const Truth& truth, const ShapeOptions& shape, const char* extension) {
   const auto [far, near] = truth.focus;
   return "truth_dt" + Short(near) + (far < near ? "_to" + Short(far) : "") + "_ut" +
-         Short(truth.aperture) + ShapeSuffix(shape) + ".png";
+         Short(truth.aperture) + ShapeSuffix(shape) + extension;
 }
 
 // Returns the name of the file that stores how much of each pixel the foreground covers, or an
@@ -87,7 +92,8 @@ std::string AlphaFile(const Scene& scene) {
 }
 
 Result<Scene> ChooseScene(const SceneOptions& options) {
-  std::optional<Scene> scene = MakeScene(options.name, uint32_t(options.seed.value_or(kSceneSeed)));
+  std::optional<Scene> scene = MakeScene(options.name, uint32_t(options.seed.value_or(kSceneSeed)),
+                                         options.hdr ? kHdrGlare : kGlare);
   if (!scene) return Error::Usage("--name", kSceneNames, "'" + options.name + "'");
   if (options.seed && !scene->seeded) {
     return Error::Usage("--seed", "--name hair, grass or cutout", "--name " + options.name);
@@ -123,9 +129,10 @@ Error CheckFolder(const SceneOptions& options, const Plan& plan) {
   if (Error error = CheckFolderOutput({"DIR", folder})) return error;
   for (const auto& entry : fs::directory_iterator(folder, failure)) {
     const std::string name = entry.path().filename().string();
-    const bool replaced = std::any_of(
-        views.begin(), views.end(),
-        [&](const starfocus_position& view) { return name == ViewName(view) + ".png"; });
+    const bool replaced =
+        std::any_of(views.begin(), views.end(), [&](const starfocus_position& view) {
+          return name == ViewName(view) + Extension(options);
+        });
     if (IsViewFile(name) && !replaced) {
       return Expected(entry.path().string(), "no view of another light field", "one");
     }
@@ -163,7 +170,7 @@ std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTra
       "u\n"
       "convention: centre pixel (x, y) appears in view (u, v) at (x - u*d, y - v*d)\n"
       "truth_dt<D>_ut<U>" +
-      ShapeSuffix(options.shape) + ".png: thin-lens ground truth, " +
+      ShapeSuffix(options.shape) + Extension(options) + ": thin-lens ground truth, " +
       (plan.lens.shape == STARFOCUS_SHAPE_FALL_OFF
            ? "aperture density (3) with theta " + Short(options.shape.theta) + " pi"
            : "aperture " + options.shape.shape) +
@@ -175,6 +182,7 @@ struct Pictures {
   LightField light_field;
   GreyImage matte;  // no levels: the scene has no matte
   std::vector<Image> truths;
+  std::vector<DeepImage> hdr_truths;  // with --hdr, in place of `truths`
 };
 
 Pictures Render(const SceneOptions& options, const Plan& plan, const RayTracer& renderer) {
@@ -186,7 +194,9 @@ Pictures Render(const SceneOptions& options, const Plan& plan, const RayTracer& 
   Pictures pictures;
   pictures.light_field.positions = options.views;
   for (const starfocus_position& view : options.views) {
-    pictures.light_field.views.push_back(renderer.View(view.u, view.v, &progress));
+    const SceneLight light = renderer.ViewLight(view.u, view.v, &progress);
+    if (options.hdr) pictures.light_field.deep.push_back(renderer.Halves(light));
+    if (!options.hdr) pictures.light_field.views.push_back(renderer.Encoded(light));
   }
   pictures.light_field.disparity = renderer.Disparity();
   if (covers) pictures.light_field.coverage = renderer.Coverage(&progress);
@@ -196,7 +206,11 @@ Pictures Render(const SceneOptions& options, const Plan& plan, const RayTracer& 
     alpha.clear();
   }
   for (const Truth& truth : plan.truths) {
-    pictures.truths.push_back(renderer.Truth(truth.focus, truth.aperture, opening, &progress));
+    const SceneLight light =
+        renderer.TruthLight(truth.focus, truth.aperture, opening,
+                            options.hdr ? kHdrLensSamples : kLensSamples, &progress);
+    if (options.hdr) pictures.hdr_truths.push_back(renderer.Halves(light));
+    if (!options.hdr) pictures.truths.push_back(renderer.Encoded(light));
   }
   return pictures;
 }
@@ -214,9 +228,12 @@ Error Run(const SceneOptions& options) {
     const std::string path = (fs::path(options.folder) / kMatteFile).string();
     error = WriteFile(path, EncodeGreyPng(path, pictures.matte));
   }
-  for (size_t i = 0; i < pictures.truths.size() && !error; ++i) {
-    const std::string name = TruthName(plan.truths[i], options.shape);
-    error = WriteImage((fs::path(options.folder) / name).string(), pictures.truths[i]);
+  for (size_t i = 0; i < plan.truths.size() && !error; ++i) {
+    const std::string name = TruthName(plan.truths[i], options.shape, Extension(options));
+    const std::string path = (fs::path(options.folder) / name).string();
+    std::vector<std::string> notes;
+    error = options.hdr ? WriteDeepImage(path, pictures.hdr_truths[i], {}, &notes)
+                        : WriteImage(path, pictures.truths[i]);
   }
   if (error) return error;
   const std::string meta = MetaText(options, plan, renderer, pictures.light_field.disparity);
@@ -262,6 +279,10 @@ Command SceneCommand() {
   AddShapeOptions(&command, &options->shape);
   AddOptions(
       {
+          {"--hdr", nullptr,
+           "Write half floats of linear light in OpenEXR files (.exr), with lamps up to 64 times "
+           "as bright as white",
+           &options->hdr},
           ThreadsOption(&options->threads),
       },
       &command);

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "examples/cli/deep_output.h"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "examples/cli/input.h"
+#include "platform/decoders/deep.h"
+#include "platform/deep_image.h"
+#include "platform/image_io.h"
+#include "platform/standard_stream.h"
+#include "platform/writers/deep_picture.h"
+#include "platform/writers/ultra_hdr.h"
+
+namespace starfocus {
+namespace {
+
+// Returns true if a picture may have light beyond white.
+bool MayExceedWhite(const DeepImage& deep) { return deep.is_half || IsHdr(deep.transfer); }
+
+bool IsJpeg(const std::string& path) {
+  const std::string extension = FormatExtension(path);
+  return extension == ".jpg" || extension == ".jpeg";
+}
+
+// Returns true if a file with this name always has more than 8 bits.
+bool IsAlwaysDeep(const std::string& path) {
+  return KeepsBits(path) && FormatExtension(path) != ".png";
+}
+
+// Makes deep views of views of 8 bits if the output has more bits.
+void Deepen(const std::string& path, Capture* capture) {
+  LightField& light_field = capture->light_field;
+  if (!IsAlwaysDeep(path) || !light_field.deep.empty()) return;
+  if (!capture->gain_map.levels.empty()) {
+    light_field.deep.push_back(ApplyGainMap(light_field.views[0], capture->gain_map));
+    return;
+  }
+  for (const Image& view : light_field.views) light_field.deep.push_back(Widen(view, {}));
+}
+
+}  // namespace
+
+bool KeepsBits(const std::string& path) { return IsDeepExtension(FormatExtension(path)); }
+
+Error ChooseBits(const std::string& path, bool single, Capture* capture, EngineTask* task) {
+  LightField& light_field = capture->light_field;
+  const bool brightens = task->config.highlights > 1;
+  if (brightens && IsAlwaysDeep(path)) {
+    return Error::Usage("--highlights", "a picture of 8 bits, because highlights are a guess",
+                        FormatExtension(path));
+  }
+  if (brightens && (!light_field.deep.empty() || !capture->gain_map.levels.empty())) {
+    TellNote(capture->path, "--highlights replaces the light of the file by a guess");
+    light_field.deep.clear();
+    capture->gain_map = {};
+  }
+  if (single) Deepen(path, capture);
+  if (!capture->gain_map.levels.empty() && light_field.deep.empty() && !IsJpeg(path)) {
+    TellNote(capture->path,
+             "the gain map is left out; .jpg, .exr, .avif and .heic files keep its light");
+  }
+  const bool is_hdr = std::any_of(light_field.deep.begin(), light_field.deep.end(), MayExceedWhite);
+  const bool has_alpha = std::any_of(light_field.deep.begin(), light_field.deep.end(),
+                                     [](const DeepImage& deep) { return deep.channels == 4; });
+  const bool keeps = single && KeepsBits(path);
+  // Pictures without alpha show the colours of transparent pixels, and those of a sweep no light
+  // beyond white.
+  if (!keeps && (has_alpha || (is_hdr && !single))) light_field.deep.clear();
+  if (!keeps) TellLost(*capture);
+  if (light_field.deep.empty()) return {};
+  task->deep_views = true;
+  task->deep_picture = keeps || is_hdr;
+  task->config.features |= STARFOCUS_FEATURE_DEEP;
+  for (const DeepImage& deep : light_field.deep) {
+    const bool chosen = task->config.transfer == STARFOCUS_TRANSFER_NONE;
+    if (!deep.is_half && !(chosen && deep.transfer == STARFOCUS_TRANSFER_SRGB)) {
+      task->config.transfer = deep.transfer;
+    }
+  }
+  return {};
+}
+
+Error WriteDeepResult(const std::string& path, const PictureOptions& how, const Capture& capture,
+                      const EngineResult& result) {
+  DeepOptions options = {how};
+  options.picture.metadata.colours = capture.deep_colours;
+  const std::string extension = FormatExtension(path);
+  const bool shows_hdr = extension == ".avif" || extension == ".heic";
+  if (shows_hdr) options.transfer = STARFOCUS_TRANSFER_PQ;
+  std::vector<std::string> notes;
+  const Error error = WriteDeepImage(path, result.deep, options, &notes);
+  for (const std::string& note : notes) TellNote(path, note);
+  return error;
+}
+
+bool WritesGainMap(const std::string& path, const Capture& capture) {
+  return IsJpeg(path) && !capture.gain_map.levels.empty();
+}
+
+Error WriteUltraHdr(const std::string& path, const PictureOptions& how, const Capture& capture,
+                    const EngineTask& task, const Image& picture) {
+  const GainMap& given = capture.gain_map;
+  try {
+    LightField light_field = capture.light_field;
+    light_field.deep = {ApplyGainMap(light_field.views[0], given)};
+    EngineTask hdr = task;
+    hdr.light_field = &light_field;
+    hdr.deep_views = hdr.deep_picture = true;
+    hdr.config.features |= STARFOCUS_FEATURE_DEEP;
+    EngineRun run(hdr.threads, 1);
+    if (Error error = run.Start(InputName(capture.path), hdr)) return error;
+    Result<EngineResult> result = run.Refocus(InputName(capture.path), hdr);
+    if (!result) return result.error();
+    const int step = std::max(1, (light_field.width() + given.width / 2) / given.width);
+    GainMap map = ComputeGainMap(picture, result->deep, step, given.channels, given.offset_sdr[0]);
+    map.format = given.format;
+    return WriteFile(path, EncodeUltraHdr(path, picture, map, how.quality, how.metadata));
+  } catch (const std::bad_alloc&) {
+    return OutOfMemory(path, "write it");
+  }
+}
+
+}  // namespace starfocus

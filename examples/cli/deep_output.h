@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keeps the light of an input in the output: pictures of more than 8 bits, alpha, and light beyond
+// white, which gain maps describe in JPEG files.
+#ifndef STARFOCUS_EXAMPLES_CLI_DEEP_OUTPUT_H_
+#define STARFOCUS_EXAMPLES_CLI_DEEP_OUTPUT_H_
+
+#include <string>
+
+#include "examples/cli/engine_run.h"
+#include "platform/gain_map.h"
+#include "platform/image.h"
+#include "platform/readers/capture.h"
+#include "platform/result.h"
+#include "platform/writers/picture.h"
+
+namespace starfocus {
+
+// Returns true if pictures with the name `path` have all bits of the input.
+bool KeepsBits(const std::string& path);
+
+// Chooses whether the engine reads and writes more than 8 bits for a picture that is written to
+// `path`, which may be empty. `single` is false for a sweep, whose pictures have 8 bits. Changes
+// the task and the deep views of the capture, and prints notes about light that is lost.
+Error ChooseBits(const std::string& path, bool single, Capture* capture, EngineTask* task);
+
+// Writes the deep picture of a result.
+Error WriteDeepResult(const std::string& path, const PictureOptions& how, const Capture& capture,
+                      const EngineResult& result);
+
+// Returns true if the picture is written as Ultra HDR JPEG: the capture has a gain map.
+bool WritesGainMap(const std::string& path, const Capture& capture);
+
+// Refocuses the light of the capture beyond white, and writes it as a gain map of the refocused
+// picture.
+Error WriteUltraHdr(const std::string& path, const PictureOptions& how, const Capture& capture,
+                    const EngineTask& task, const Image& picture);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_DEEP_OUTPUT_H_
