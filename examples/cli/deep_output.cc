@@ -41,36 +41,78 @@ void Deepen(const std::string& path, Capture* capture) {
   for (const Image& view : light_field.views) light_field.deep.push_back(Widen(view, {}));
 }
 
+// Removes the light of the file if --highlights guesses light.
+Error ReplaceLight(const std::string& path, Capture* capture) {
+  if (IsAlwaysDeep(path)) {
+    return Error::Usage("--highlights", "a picture of 8 bits, because highlights are a guess",
+                        FormatExtension(path));
+  }
+  std::vector<DeepImage>& deep = capture->light_field.deep;
+  if (!capture->gain_map.levels.empty() || std::any_of(deep.begin(), deep.end(), MayExceedWhite)) {
+    TellNote(capture->path, "--highlights replaces the light of the file by a guess");
+  }
+  deep.clear();
+  capture->gain_map = {};
+  return {};
+}
+
+// Prints notes about what a picture of 8 bits loses.
+void TellLostBits(const Capture& capture) {
+  TellLost(capture);
+  const std::vector<DeepImage>& deep = capture.light_field.deep;
+  if (capture.photo || !std::any_of(deep.begin(), deep.end(), MayExceedWhite)) return;
+  if (std::any_of(deep.begin(), deep.end(),
+                  [](const DeepImage& view) { return LargestLight(view) > 1; })) {
+    TellNote(capture.path, "light brighter than white is clipped in pictures of 8 bits");
+  }
+}
+
+// Prints a note if the capture has a gain map that the output does not keep.
+void TellLostGainMap(const OutputOptions& output, bool single, const Capture& capture) {
+  if (capture.gain_map.levels.empty() || !capture.light_field.deep.empty()) return;
+  if (single && WritesGainMap(output, capture)) return;
+  const char* reason = output.depth_photo ? "depth photos have none"
+                       : !single          ? "pictures of sweeps have none"
+                                          : ".jpg, .exr, .avif and .heic files keep its light";
+  TellNote(capture.path, std::string("the gain map is left out; ") + reason);
+}
+
+// Returns an error if the format of `path` does not describe the light of a picture. Encodes one
+// pixel, so that this error is reported before the picture is computed.
+Error CheckLight(const std::string& path, const DeepImage& picture) {
+  const std::string extension = FormatExtension(path);
+  if (extension != ".tif" && extension != ".tiff") return {};
+  DeepImage pixel(1, 1, picture.channels);
+  pixel.is_half = picture.is_half;
+  pixel.transfer = picture.transfer;
+  std::vector<std::string> notes;
+  return EncodeDeepPicture(path, pixel, {}, &notes).error();
+}
+
 }  // namespace
 
 bool KeepsBits(const std::string& path) { return IsDeepExtension(FormatExtension(path)); }
 
-Error ChooseBits(const std::string& path, bool single, Capture* capture, EngineTask* task) {
+Error ChooseBits(const OutputOptions& output, bool single, Capture* capture, EngineTask* task) {
   LightField& light_field = capture->light_field;
+  const std::string& path = output.out;
   const bool brightens = task->config.highlights > 1;
-  if (brightens && IsAlwaysDeep(path)) {
-    return Error::Usage("--highlights", "a picture of 8 bits, because highlights are a guess",
-                        FormatExtension(path));
-  }
-  if (brightens && (!light_field.deep.empty() || !capture->gain_map.levels.empty())) {
-    TellNote(capture->path, "--highlights replaces the light of the file by a guess");
-    light_field.deep.clear();
-    capture->gain_map = {};
+  const bool replaces = brightens && !light_field.deep.empty();
+  if (brightens) {
+    if (Error error = ReplaceLight(path, capture)) return error;
   }
   if (single) Deepen(path, capture);
-  if (!capture->gain_map.levels.empty() && light_field.deep.empty() && !IsJpeg(path)) {
-    TellNote(capture->path,
-             "the gain map is left out; .jpg, .exr, .avif and .heic files keep its light");
-  }
+  TellLostGainMap(output, single, *capture);
   const bool is_hdr = std::any_of(light_field.deep.begin(), light_field.deep.end(), MayExceedWhite);
   const bool has_alpha = std::any_of(light_field.deep.begin(), light_field.deep.end(),
                                      [](const DeepImage& deep) { return deep.channels == 4; });
   const bool keeps = single && KeepsBits(path);
+  if (!keeps || replaces) TellLostBits(*capture);
   // Pictures without alpha show the colours of transparent pixels, and those of a sweep no light
   // beyond white.
   if (!keeps && (has_alpha || (is_hdr && !single))) light_field.deep.clear();
-  if (!keeps) TellLost(*capture);
   if (light_field.deep.empty()) return {};
+  if (Error error = keeps ? CheckLight(path, light_field.deep[0]) : Error()) return error;
   task->deep_views = true;
   task->deep_picture = keeps || is_hdr;
   task->config.features |= STARFOCUS_FEATURE_DEEP;
@@ -90,14 +132,18 @@ Error WriteDeepResult(const std::string& path, const PictureOptions& how, const 
   const std::string extension = FormatExtension(path);
   const bool shows_hdr = extension == ".avif" || extension == ".heic";
   if (shows_hdr) options.transfer = STARFOCUS_TRANSFER_PQ;
+  if (shows_hdr && result.deep.is_half && options.picture.metadata.colours.form.empty() &&
+      !how.metadata.icc.empty()) {
+    TellNote(path, "PQ replaces the ICC profile, so that the colours count as BT.709");
+  }
   std::vector<std::string> notes;
   const Error error = WriteDeepImage(path, result.deep, options, &notes);
   for (const std::string& note : notes) TellNote(path, note);
   return error;
 }
 
-bool WritesGainMap(const std::string& path, const Capture& capture) {
-  return IsJpeg(path) && !capture.gain_map.levels.empty();
+bool WritesGainMap(const OutputOptions& output, const Capture& capture) {
+  return IsJpeg(output.out) && !output.depth_photo && !capture.gain_map.levels.empty();
 }
 
 Error WriteUltraHdr(const std::string& path, const PictureOptions& how, const Capture& capture,

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "examples/cli/engine_run.h"
+#include "examples/cli/refocus_output.h"
 #include "platform/gain_map.h"
 #include "platform/image.h"
 #include "platform/readers/capture.h"
@@ -18,17 +19,18 @@ namespace starfocus {
 // Returns true if pictures with the name `path` have all bits of the input.
 bool KeepsBits(const std::string& path);
 
-// Chooses whether the engine reads and writes more than 8 bits for a picture that is written to
-// `path`, which may be empty. `single` is false for a sweep, whose pictures have 8 bits. Changes
-// the task and the deep views of the capture, and prints notes about light that is lost.
-Error ChooseBits(const std::string& path, bool single, Capture* capture, EngineTask* task);
+// Chooses whether the engine reads and writes more than 8 bits for the picture output.out, which
+// may be empty. `single` is false for a sweep, whose pictures have 8 bits. Changes the task and the
+// deep views of the capture, and prints notes about light that is lost. Returns an error if the
+// format of the picture cannot describe the light.
+Error ChooseBits(const OutputOptions& output, bool single, Capture* capture, EngineTask* task);
 
 // Writes the deep picture of a result.
 Error WriteDeepResult(const std::string& path, const PictureOptions& how, const Capture& capture,
                       const EngineResult& result);
 
-// Returns true if the picture is written as Ultra HDR JPEG: the capture has a gain map.
-bool WritesGainMap(const std::string& path, const Capture& capture);
+// Returns true if a single picture is written as Ultra HDR JPEG: the capture has a gain map.
+bool WritesGainMap(const OutputOptions& output, const Capture& capture);
 
 // Refocuses the light of the capture beyond white, and writes it as a gain map of the refocused
 // picture.

@@ -204,10 +204,13 @@ void TellOutputs(const RefocusOptions& options, const LensPlan& plan) {
 }
 
 // Returns the bytes of the pictures and maps that an input holds after it has been refocused.
-uint64_t BytesOf(const LightField& light_field, const Image& picture) {
-  uint64_t bytes = picture.pixels.size() + light_field.coverage.size() +
+uint64_t BytesOf(const LightField& light_field, const EngineResult& result) {
+  uint64_t bytes = result.picture.pixels.size() + light_field.coverage.size() +
                    light_field.disparity.values.size() * sizeof(float);
   for (const Image& view : light_field.views) bytes += view.pixels.size();
+  uint64_t samples = result.deep.samples.size();
+  for (const DeepImage& view : light_field.deep) samples += view.samples.size();
+  bytes += samples * sizeof(uint16_t);
   return bytes;
 }
 
@@ -230,14 +233,14 @@ Error RunOne(const RefocusOptions& options, const PictureOptions& how, const Len
   const std::string& out = options.output.out;
   if (task.deep_picture && KeepsBits(out)) {
     write = [&] { return WriteDeepResult(out, how, capture, result); };
-  } else if (task.deep_picture && !out.empty()) {
+  } else if (task.deep_picture && !out.empty() && !options.output.depth_photo) {
     write = [&] { return WriteImage(out, result.picture, how); };
-  } else if (WritesGainMap(out, capture) && !options.output.depth_photo) {
+  } else if (WritesGainMap(options.output, capture)) {
     write = [&] { return WriteUltraHdr(out, how, capture, one, result.picture); };
   }
   PictureWriter writer(options.output, how, &result.picture, task.threads, write);
   Error error = run.RefocusRows(InputName(options.input.path), task, writer.rows(), &result);
-  if (options.turn != nullptr) options.turn->End(BytesOf(*task.light_field, result.picture));
+  if (options.turn != nullptr) options.turn->End(BytesOf(*task.light_field, result));
   if (!error) {
     Refocused refocused = {options.input.path, &task, &result.picture, plan.aperture.widest};
     if (plan.focus_option == "--focus-at") refocused.at = Pixel{plan.x, plan.y};
@@ -298,7 +301,7 @@ Error RunInput(const RefocusOptions& options) {
   EngineTask task = MakeTask(*plan, loaded->capture.light_field, loaded->stats, loaded->max_blur,
                              !options.report.empty());
   const bool single = options.sweep.empty();
-  Error error = ChooseBits(options.output.out, single, &loaded->capture, &task);
+  Error error = ChooseBits(options.output, single, &loaded->capture, &task);
   if (error) return error;
   error = single ? RunOne(options, how, *plan, loaded->capture, task, terminal, start)
                  : RunSweep(options, how, plan->foci, task, start);
