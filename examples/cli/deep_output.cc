@@ -41,19 +41,14 @@ void Deepen(const std::string& path, Capture* capture) {
   for (const Image& view : light_field.views) light_field.deep.push_back(Widen(view, {}));
 }
 
-// Removes the light of the file if --highlights guesses light.
-Error ReplaceLight(const std::string& path, Capture* capture) {
-  if (IsAlwaysDeep(path)) {
-    return Error::Usage("--highlights", "a picture of 8 bits, because highlights are a guess",
-                        FormatExtension(path));
-  }
+// Removes the light of the file, because --highlights guesses light.
+void ReplaceLight(Capture* capture) {
   std::vector<DeepImage>& deep = capture->light_field.deep;
   if (!capture->gain_map.levels.empty() || std::any_of(deep.begin(), deep.end(), MayExceedWhite)) {
     TellNote(capture->path, "--highlights replaces the light of the file by a guess");
   }
   deep.clear();
   capture->gain_map = {};
-  return {};
 }
 
 // Prints notes about what a picture of 8 bits loses.
@@ -93,14 +88,18 @@ Error CheckLight(const std::string& path, const DeepImage& picture) {
 
 bool KeepsBits(const std::string& path) { return IsDeepExtension(FormatExtension(path)); }
 
+Error CheckHighlights(const std::string& path, double highlights) {
+  if (highlights <= 1 || !IsAlwaysDeep(path)) return {};
+  return Error::Usage("--highlights", "a picture of 8 bits, because highlights are a guess",
+                      FormatExtension(path));
+}
+
 Error ChooseBits(const OutputOptions& output, bool single, Capture* capture, EngineTask* task) {
   LightField& light_field = capture->light_field;
   const std::string& path = output.out;
   const bool brightens = task->config.highlights > 1;
   const bool replaces = brightens && !light_field.deep.empty();
-  if (brightens) {
-    if (Error error = ReplaceLight(path, capture)) return error;
-  }
+  if (brightens) ReplaceLight(capture);
   if (single) Deepen(path, capture);
   TellLostGainMap(output, single, *capture);
   const bool is_hdr = std::any_of(light_field.deep.begin(), light_field.deep.end(), MayExceedWhite);

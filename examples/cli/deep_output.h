@@ -19,6 +19,9 @@ namespace starfocus {
 // Returns true if pictures with the name `path` have all bits of the input.
 bool KeepsBits(const std::string& path);
 
+// Returns an error if the picture `path` stores light, and --highlights makes light up.
+Error CheckHighlights(const std::string& path, double highlights);
+
 // Chooses whether the engine reads and writes more than 8 bits for the picture output.out, which
 // may be empty. `single` is false for a sweep, whose pictures have 8 bits. Changes the task and the
 // deep views of the capture, and prints notes about light that is lost. Returns an error if the

@@ -117,6 +117,7 @@ Result<LensPlan> MakePlan(const RefocusOptions& options) {
   const bool region = options.region.width > 0, sweep = !options.sweep.empty();
   if (Error error = PlanOutput(options.output, sweep, region)) return error;
   if (Error error = CheckOutputs(options)) return error;
+  if (Error error = CheckHighlights(options.output.out, options.lens.highlights)) return error;
   if (region && options.stream) {
     return Error::Usage("--region", "either --region or --stream", "both");
   }
