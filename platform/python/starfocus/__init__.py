@@ -7,9 +7,10 @@
     picture = refocuser.refocus(scene.views, scene.disparity, focus=focus)
 
 A light field consists of 1 to 17 rectified views and the disparity map of the centre view. Views and pictures
-are arrays of uint8 with the shape (height, width, 3). Disparity maps are arrays of float32 with the shape (height,
-width). Disparities are in pixels per unit of u; nearer points have larger disparities. Views lie at the
-positions that `view_positions` returns, or at positions that the caller passes to `Refocuser`.
+are arrays of uint8 with the shape (height, width, 3), or have more bits or alpha (`Refocuser`). Disparity maps
+are arrays of float32 with the shape (height, width). Disparities are in pixels per unit of u; nearer points
+have larger disparities. Views lie at the positions that `view_positions` returns, or at positions that the
+caller passes to `Refocuser`.
 
 The package calls the C library through ctypes, and returns pictures with the same bytes as the C library. The
 documentation of the C headers (starfocus/starfocus.h) applies to all fields that are mentioned here by their C names.

@@ -18,7 +18,7 @@ MAX_SIZE = 65535
 ALIGNMENT = 64
 LAYERS = 3
 #: Names and bits of STARFOCUS_FEATURE_*, which are keywords of Refocuser.
-FEATURES = {"coverage": 1, "streaming": 2, "images": 4, "shapes": 8}
+FEATURES = {"coverage": 1, "streaming": 2, "images": 4, "shapes": 8, "deep": 16}
 
 Progress = CFUNCTYPE(c_int, c_void_p, c_int32, c_int32)
 

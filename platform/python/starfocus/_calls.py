@@ -13,15 +13,24 @@ import numpy as np
 
 from . import _abi
 from ._abi import library
-from ._types import Array, Bytes
+from ._types import Array, Pixels
+from .constants import Format
 from .errors import check, out_of_range
 
 #: Progress callback: receives the number of finished rows and the number of all rows. If the callback returns a true
 #: value, the call is cancelled.
 ProgressFunction = Callable[[int, int], Any]
 #: An array of shape (views, height, width, 3), or a sequence whose items are arrays of shape (height, width, 3) or
-#: Images. A single array of shape (height, width, 3) is one view.
+#: Images. A single array of shape (height, width, 3) is one view. `Refocuser` describes the types of the elements.
 Views = Union[Array, Sequence[Any]]
+#: Type and number of the samples of a pixel.
+Samples = Tuple["np.dtype[Any]", int]
+#: Formats of arrays in the memory of the caller. Arrays of float32 are converted to float16.
+_FORMATS = {(np.dtype(np.uint8), 3): Format.RGB, (np.dtype(np.uint16), 3): Format.RGB16,
+            (np.dtype(np.uint16), 4): Format.RGBA16, (np.dtype(np.float16), 3): Format.RGB_HALF,
+            (np.dtype(np.float16), 4): Format.RGBA_HALF}
+_SAMPLE_TYPES = (np.uint8, np.uint16, np.float16, np.float32)
+_MAX_LIGHT = 64  # largest light that the library represents; white is 1
 #: A region of the picture: x, y, width and height in pixels.
 RegionOfPicture = Tuple[int, int, int, int]
 
@@ -142,12 +151,47 @@ def stride_of(array: Array) -> int:
     return max(array.strides[0], array.nbytes // array.shape[0])
 
 
-def output(out: Optional[Array], shape: Tuple[int, ...], what: str) -> Bytes:
+def samples_of(views: Views) -> Samples:
+    """Returns the samples of the first view that is an array, or those of RGB with 8 bits if all views are Images.
+
+    Raises TypeError if the library has no format for their type.
+    """
+    for i, view in enumerate(as_list(views)):
+        if not hasattr(view, "as_structure"):
+            array = np.asarray(view)
+            if array.dtype not in _SAMPLE_TYPES:
+                raise TypeError(f"view {i}: expected uint8, uint16, float16 or float32, found {array.dtype}")
+            has_alpha = array.dtype != np.uint8 and _without_batch(array, 3).shape[-1:] == (4,)
+            return array.dtype, 4 if has_alpha else 3
+    return np.dtype(np.uint8), 3
+
+
+def _as_light(array: Array, what: str) -> Array:
+    """Returns linear light as float16. Raises ValueError for values that the library does not represent.
+
+    Negative values, which wide gamuts may contain, are black to the library.
+    """
+    if array.dtype == np.float16:
+        # Positive numbers have the order of their bits, and so have negative ones by magnitude; infinities and NaN are
+        # the last. For 36 million samples, the limits of bits take 0.01 s, and the limits of halves take 0.7 s.
+        most, least = np.array([_MAX_LIGHT, -np.inf], np.float16).view(np.uint16)
+        fits = array.view(np.int16).max() <= most and array.view(np.uint16).max() < least
+    else:
+        # The maximum and the minimum of values with a NaN are NaN.
+        fits = array.max() <= _MAX_LIGHT and array.min() > -np.inf
+    if not fits:
+        at = np.argmin((array <= _MAX_LIGHT) & (array > -np.inf))
+        y, x = (int(i) for i in np.unravel_index(at, array.shape)[:2])
+        raise ValueError(f"{what}: expected finite values up to {_MAX_LIGHT}, found {array.flat[at]} at ({x}, {y})")
+    return np.maximum(array, 0).astype(np.float16) if array.dtype == np.float32 else array
+
+
+def output(out: Optional[Array], shape: Tuple[int, ...], kind: "np.dtype[Any]", what: str) -> Pixels:
     """Returns `out`, or a new picture if `out` is None. Raises an error if the library cannot write `out` in place."""
     if out is None:
-        return np.empty(shape, np.uint8)
-    if not isinstance(out, np.ndarray) or out.dtype != np.uint8:
-        raise TypeError(f"{what}: expected an array of uint8")
+        return np.empty(shape, kind)
+    if not isinstance(out, np.ndarray) or out.dtype != kind:
+        raise TypeError(f"{what}: expected an array of {kind}")
     if out.shape != shape or not has_rows(out) or not out.flags.writeable:
         raise ValueError(f"{what}: expected a writable array of the shape {shape} with contiguous rows, found "
                          f"the shape {out.shape} with the strides {out.strides}")
@@ -155,7 +199,7 @@ def output(out: Optional[Array], shape: Tuple[int, ...], what: str) -> Bytes:
 
 
 def as_list(views: Views) -> Sequence[Any]:
-    """Returns the views as a sequence. A single Image or array of shape (height, width, 3) becomes one view."""
+    """Returns the views as a sequence. A single Image or array of three axes becomes one view."""
     if isinstance(views, (list, tuple)):
         return views
     return [views] if hasattr(views, "as_structure") or np.ndim(views) == 3 else views  # type: ignore[return-value]
@@ -188,8 +232,8 @@ def set_coverage(field: Structure, coverage: Any, height: int, width: int) -> Li
 
 
 def as_image(array: Array) -> Structure:
-    """Returns a starfocus_image for an array with rows of R, G, B."""
-    image = _abi.Image()
+    """Returns a starfocus_image for an array of one of the `_FORMATS`."""
+    image = _abi.Image(_FORMATS[array.dtype, array.shape[-1]])
     image.planes[0], image.strides[0] = array.ctypes.data, stride_of(array)
     return image
 
@@ -204,6 +248,7 @@ def light_field(views: Views, disparity: Any, count: int, height: int,
     views = as_list(views)
     if len(views) != count:
         raise ValueError(f"views: expected {count}, found {len(views)}")
+    kind, channels = samples_of(views)
     field = _abi.defaults(_abi.LightField)
     kept: List[Any] = []
     for i, view in enumerate(views):
@@ -211,7 +256,8 @@ def light_field(views: Views, disparity: Any, count: int, height: int,
             field.views[i], planes = view.as_structure(width, height, f"view {i}")
             kept += planes
         else:
-            kept.append(rows_of(view, np.uint8, (height, width, 3), f"view {i}"))
+            pixels = rows_of(view, kind, (height, width, channels), f"view {i}")
+            kept.append(_as_light(pixels, f"view {i}") if kind.kind == "f" else pixels)
             field.views[i] = as_image(kept[-1])
     if disparity is not None:
         if not hasattr(disparity, "as_structure"):

@@ -42,20 +42,23 @@ class Shape(IntEnum):
 
 
 class Transfer(IntEnum):
-    """How the codes 0 to 255 of a picture represent light (starfocus_transfer).
+    """How the codes of a picture represent light (starfocus_transfer).
 
-    The field `transfer` of the configuration has one of these values. SRGB: the sRGB curve. NONE: light is the code
-    itself.
+    The field `transfer` of the configuration has one of these values, or its name in small letters. SRGB: the sRGB
+    curve. NONE: light is the code itself. PQ, HLG: the curves of ITU-R BT.2100; they require `deep=1`.
     """
 
     SRGB = 0
     NONE = 1
+    PQ = 2
+    HLG = 3
 
 
 class Format(IntEnum):
-    """Layout of a picture with 8 bits per sample (starfocus_format).
+    """Layout of a picture (starfocus_format).
 
-    RGB formats are named by the order of bytes in memory. YUV formats have chroma planes of half the width and height.
+    RGB formats are named by the order of bytes in memory. YUV formats have chroma planes of half the width and, except
+    P210, half the height. The formats from RGB16 on have samples of 16 bits and require `deep=1`.
     """
 
     RGB = 0
@@ -66,6 +69,12 @@ class Format(IntEnum):
     NV21 = 5
     I420 = 6
     YUV_420_888 = 7
+    RGB16 = 8
+    RGBA16 = 9
+    RGB_HALF = 10
+    RGBA_HALF = 11
+    P010 = 12
+    P210 = 13
 
 
 class Matrix(IntEnum):

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from ctypes import Structure, byref, c_int32, c_size_t
 from dataclasses import dataclass
-from typing import Optional, Sequence, Tuple
+from typing import Any, Optional, Sequence, Tuple
 
 import numpy as np
 
 from . import _abi
 from ._abi import library
 from ._calls import has_rows, map_values, stride_of, whole
-from ._types import Array, Bytes
+from ._types import Array
 from .constants import DepthMeaning, Format, Matrix, Range
 from .errors import call
 
@@ -25,7 +25,8 @@ class Image:
 
     Attributes:
         format: layout of the picture.
-        planes: arrays of uint8, one per plane. The first axis of an array counts rows, which are contiguous. Planes of
+        planes: arrays of uint8, one per plane; of float16 for RGB_HALF and RGBA_HALF, and of uint16 for the other
+            formats with samples of 16 bits. The first axis of an array counts rows, which are contiguous. Planes of
             an output must be writable.
         matrix, range: matrix and code range of YUV formats; ignored for RGB formats.
         pixel_stride: bytes from pixel to pixel of an RGB format, at most 256, or bytes from chroma sample to chroma
@@ -33,7 +34,7 @@ class Image:
     """
 
     format: Format
-    planes: Sequence[Bytes]
+    planes: Sequence[Array]
     matrix: Matrix = Matrix.BT601
     range: Range = Range.LIMITED
     pixel_stride: int = 0
@@ -48,11 +49,12 @@ class Image:
             width, height: size in pixels.
             matrix, codes: matrix and code range of YUV formats.
         """
+        kind = _sample_type(form)
         sizes = _plane_sizes(_abi.Image(form), width, height)
-        return Image(form, [np.empty(size, np.uint8) for size in sizes], matrix, codes)
+        return Image(form, [np.empty((rows, size // kind.itemsize), kind) for rows, size in sizes], matrix, codes)
 
     def as_structure(self, width: int, height: int, what: str,
-                     written: bool = False) -> Tuple[Structure, Sequence[Bytes]]:
+                     written: bool = False) -> Tuple[Structure, Sequence[Array]]:
         """Returns the starfocus_image of a picture of this size, and the arrays that it points to.
 
         Raises TypeError or ValueError if a plane has the wrong type, is too small, or cannot be read or written in
@@ -65,7 +67,7 @@ class Image:
         if len(planes) != len(sizes):
             raise ValueError(f"{what}: expected {len(sizes)} planes, found {len(planes)}")
         for i, (plane, (rows, row_bytes)) in enumerate(zip(planes, sizes)):
-            _check_plane(plane, rows, row_bytes, f"{what}, plane {i}", written)
+            _check_plane(plane, _sample_type(self.format), (rows, row_bytes), f"{what}, plane {i}", written)
             image.planes[i], image.strides[i] = plane.ctypes.data, stride_of(plane)
         return image, planes
 
@@ -111,6 +113,13 @@ class DepthMap:
         return depth, values
 
 
+def _sample_type(form: Format) -> "np.dtype[Any]":
+    """Returns the type of the samples of a format."""
+    if form < Format.RGB16:
+        return np.dtype(np.uint8)
+    return np.dtype(np.float16 if form in (Format.RGB_HALF, Format.RGBA_HALF) else np.uint16)
+
+
 def _plane_sizes(image: Structure, width: int, height: int) -> Sequence[Tuple[int, int]]:
     """Returns the number of rows and the bytes per row of each plane of a picture, whose planes are not read."""
     rows, row_bytes = c_int32(), c_size_t()
@@ -122,13 +131,15 @@ def _plane_sizes(image: Structure, width: int, height: int) -> Sequence[Tuple[in
     return sizes
 
 
-def _check_plane(plane: Bytes, rows: int, row_bytes: int, what: str, written: bool) -> None:
-    if plane.dtype != np.uint8:
-        raise TypeError(f"{what}: expected uint8, found {plane.dtype}")
+def _check_plane(plane: Array, kind: "np.dtype[Any]", size: Tuple[int, int], what: str, written: bool) -> None:
+    """Raises an error unless the plane has this type and at least this size: rows, and bytes per row."""
+    rows, row_bytes = size
+    if plane.dtype != kind:
+        raise TypeError(f"{what}: expected {kind}, found {plane.dtype}")
     if plane.ndim < 2 or 0 in plane.shape or not has_rows(plane):
         raise ValueError(f"{what}: expected contiguous rows, found the shape {plane.shape} with the strides "
                          f"{plane.strides}")
-    found = plane.shape[0], plane[0].size
+    found = plane.shape[0], plane[0].nbytes
     if found[0] < rows or found[1] < row_bytes:
         raise ValueError(f"{what}: expected {rows} rows of {row_bytes} bytes at least, found {found[0]} of "
                          f"{found[1]}")

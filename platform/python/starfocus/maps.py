@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _abi
 from ._calls import (Pool, ProgressFunction, Views, Watch, aligned, as_list, as_map, callbacks_of, depth_map,
-                     light_field, pointer, positions_of, set_field, size_of_views, stride_of, whole)
+                     light_field, pointer, positions_of, samples_of, set_field, size_of_views, stride_of, whole)
 from ._abi import library
 from ._types import Array, Bytes, Floats
 from .errors import call, out_of_range
@@ -170,6 +170,9 @@ def _make_map(make: Any, views: Views, given: Optional[Disparity], span: Tuple[f
     """Calls starfocus_estimate_disparity or starfocus_repair_disparity. `given` is the map to repair, if any."""
     views = as_list(views)
     height, width = size_of_views(views)
+    kind, _ = samples_of(views)
+    if kind != np.uint8:
+        raise TypeError(f"views: expected uint8, found {kind}")
     pool, watch, size = Pool(workers), Watch(progress), ctypes.c_size_t()
     config, problem = _abi.defaults(_abi.Config), _abi.Problem()
     for name, value in (("width", width), ("height", height), ("views", len(views))):

@@ -12,18 +12,18 @@ from typing import Any, Dict, Iterable, Iterator, List, Optional, Sequence, Set,
 import numpy as np
 
 from . import _abi
-from ._calls import (Pool, ProgressFunction, RegionOfPicture, Views, Watch, aligned, as_image, as_list, as_map,
-                     callbacks_of, depth_map, light_field, output, part_of, pointer, positions_of, set_coverage,
-                     set_field, size_of_views, whole)
+from ._calls import (Pool, ProgressFunction, RegionOfPicture, Samples, Views, Watch, aligned, as_image, as_list,
+                     as_map, callbacks_of, depth_map, light_field, output, part_of, pointer, positions_of, samples_of,
+                     set_coverage, set_field, size_of_views, whole)
 from ._abi import library
-from ._types import Array, Bytes
-from .constants import Mode, Renderer, Status
+from ._types import Array, Pixels
+from .constants import Mode, Renderer, Status, Transfer
 from .errors import ArgumentError, StarfocusError, call
 from .images import Image
 from .maps import Disparity, measure_disparity
 
 
-#: A picture as an array of shape (height, width, 3), or an Image for other formats.
+#: A picture as an array of shape (height, width, 3) or (height, width, 4), or an Image for other formats.
 Picture = Union[Array, Image]
 
 
@@ -45,10 +45,20 @@ class Refocuser:
         positions: positions (u, v) of the views, each from -1 to 1, of which the first is (0, 0). For a stereo pair,
             pass `[(0, 0), (1, 0)]`. None: the positions of `view_positions`.
         config: other fields of starfocus_config and starfocus_tuning with their C names, for example `max_blur`
-            (default 32 pixels), `transfer`, `highlights`, or `previews=3` for `Prepared.preview` down to 1/8 of the
-            size. Keywords with the value 0 or 1: `shapes` for lenses that are polygons or have cat's eyes,
-            `images` for formats other than RGB, `streaming` for `stream`, `fill_unknown`, `line_scan` (default 1) and
-            `coverage` (default 1).
+            (default 32 pixels), `transfer` (a `Transfer`, or "srgb", "none", "pq" or "hlg"), `highlights`, or
+            `previews=3` for `Prepared.preview` down to 1/8 of the size. Keywords with the value 0 or 1: `shapes` for
+            lenses that are polygons or have cat's eyes, `images` for formats other than RGB, `deep` for more than 8
+            bits and alpha, `streaming` for `stream`, `fill_unknown`, `line_scan` (default 1) and `coverage` (default
+            1).
+
+    Views are uint8 of shape (height, width, 3). With `deep=1`, they may have one of these types and an alpha channel,
+    shape (height, width, 4), which is refocused as well:
+
+        uint16: codes from 0 to 65535 of the curve `transfer`. Colours are not multiplied with alpha.
+        float16, float32: linear light up to 64, where white is 1 and negative values are black. Colours are multiplied
+            with alpha. The engine computes with float16; float32 is converted.
+
+    Pictures have the type and the channels of the views. If all views are Images, pictures are uint8 of three channels.
 
     Attributes:
         report: dictionary with the fields of starfocus_report of the last refocusing.
@@ -70,6 +80,8 @@ class Refocuser:
             if name in _abi.FEATURES:
                 bit = _abi.FEATURES[name]
                 self._config.features = self._config.features & ~bit | (bit if value else 0)
+            elif name == "transfer":
+                set_field(self._config, name, _transfer_of(value))
             elif name == "fill_unknown":
                 self._config.unknown = 1 if value else 0
             elif name == "line_scan":
@@ -99,13 +111,14 @@ class Refocuser:
         """Returns a refocuser for a light field. Other light fields may use it if they have the same size, number of
         views and disparity range.
 
-        `max_blur` is large enough for every focus in the disparity range, up to 128 pixels.
+        `max_blur` is large enough for every focus in the disparity range, up to 128 pixels. `deep` is 1 for arrays of
+        other types than uint8.
 
         Args:
             views: views, as for `refocus`.
             disparity: disparity map, an array of the size of the views; or a DepthMap, at most of this size.
             workers: number of threads; 0: one for each big core of the machine.
-            config: as for `Refocuser`; takes precedence over the derived `max_blur`.
+            config: as for `Refocuser`; takes precedence over the derived fields.
 
         Raises TypeError or ValueError if a view or the map has another type or size. Images have no size: if all views
         are Images, the size is that of the map.
@@ -118,9 +131,11 @@ class Refocuser:
         else:
             height, width = size_of_views(views)
         light_field(views, disparity, len(views), height, width)  # checks the types and sizes
-        room = min(128.0, max(1.0, math.ceil(stats.max - stats.min)))
+        derived: Dict[str, Any] = {"max_blur": min(128.0, max(1.0, math.ceil(stats.max - stats.min)))}
+        if samples_of(views)[0] != np.uint8:
+            derived["deep"] = 1
         return cls(width, height, len(views), disparity_min=stats.min, disparity_max=stats.max,
-                   workers=workers, **{"max_blur": room, **config})
+                   workers=workers, **{**derived, **config})
 
     @property
     def width(self) -> int:
@@ -147,17 +162,18 @@ class Refocuser:
     def refocus(self, views: Views, disparity: Disparity, *, focus: float, aperture: float = 1.0,
                 coverage: Optional[Array] = None, mode: Mode = Mode.BLOCK, renderer: Renderer = Renderer.AUTO,
                 region: Optional[RegionOfPicture] = None, out: Optional[Array] = None,
-                progress: Optional[ProgressFunction] = None, **lens: Any) -> Bytes: ...
+                progress: Optional[ProgressFunction] = None, **lens: Any) -> Pixels: ...
 
     def refocus(self, views: Views, disparity: Disparity, *, focus: float, aperture: float = 1.0,
                 coverage: Optional[Array] = None, mode: Mode = Mode.BLOCK, renderer: Renderer = Renderer.AUTO,
                 region: Optional[RegionOfPicture] = None, out: Optional[Picture] = None,
                 progress: Optional[ProgressFunction] = None, **lens: Any) -> Picture:
-        """Refocuses a light field. Returns the picture, uint8 of shape (height, width, 3).
+        """Refocuses a light field. Returns the picture, of the type and channels of the views.
 
         Args:
-            views: the configured number of views, each uint8 of shape (height, width, 3) or an Image. Images in formats
-                other than RGB require `images=1` in the configuration. Arrays with contiguous rows are read in place.
+            views: the configured number of views, each an array, all of one type and shape, or an Image. `Refocuser`
+                lists the types. Images in formats other than RGB require `images=1` or `deep=1` in the configuration.
+                Arrays with contiguous rows are read in place, except float32.
             disparity: disparity map of the centre view, of shape (height, width). float32 is read in place; other
                 floating-point types are converted. A DepthMap requires `images=1`, unless the map contains float32
                 disparities and has the size of the picture.
@@ -170,7 +186,8 @@ class Refocuser:
             renderer: how views are rendered.
             region: x, y, width and height in pixels of the part to compute. The result has the same bytes as this part
                 of the whole picture. None or four zeros: the whole picture.
-            out: writable array, or with `images=1` an Image, of the size of the region. The picture is written to
+            out: writable array of the type and channels of the views, or with `images=1` or `deep=1` an Image, of the
+                size of the region. The picture is written to
                 `out`, and `out` is returned instead of a new array. `out` must not overlap the light field.
             progress: receives the number of finished rows and the number of rows. If `progress` returns a true value,
                 the call is cancelled and raises Cancelled. An exception in `progress` also cancels the call and is
@@ -185,7 +202,8 @@ class Refocuser:
         kept += set_coverage(field, coverage, self.height, self.width)
         *_, width, height = part_of(region, self.width, self.height)
         params = self._params(mode, renderer, region, focus=focus, aperture=aperture, **lens)
-        return self._picture(params, out, (height, width), progress, library.starfocus_refocus, byref(field), keep=kept)
+        return self._picture(params, out, (height, width), samples_of(views), progress, library.starfocus_refocus,
+                             byref(field), keep=kept)
 
     def largest_aperture(self, focus: float, **lens: Any) -> float:
         """Returns the largest aperture, at most 1, whose blur radius never exceeds `max_blur`.
@@ -209,12 +227,12 @@ class Refocuser:
 
     def stream(self, bands: Iterable[Scene], *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
                renderer: Renderer = Renderer.AUTO, progress: Optional[ProgressFunction] = None,
-               **lens: Any) -> Iterator[Bytes]:
+               **lens: Any) -> Iterator[Pixels]:
         """Refocuses a light field that arrives in bands of rows. Yields the rows of the picture in bands.
 
         Requires `streaming=1` in the configuration. The memory of the engine does not grow with the height. The yielded
-        bands are new arrays, uint8 of shape (rows, width, 3), which together have the bytes of `refocus`. Their heights
-        differ from the heights of the input bands.
+        bands are new arrays, which together have the bytes of `refocus`. Their heights differ from the heights of the
+        input bands.
 
         Args:
             bands: bands from top to bottom, each with any number of rows: tuples (views, disparity) or (views,
@@ -243,29 +261,30 @@ class Refocuser:
                 self._run(watch, library.starfocus_stream_push, byref(field), rows, byref(consumed))
                 rows -= consumed.value
                 _skip_rows(field, self._config.views, consumed.value)
-                yield from self._finished_rows(watch)
+                yield from self._finished_rows(watch, samples_of(views))
             del kept
         if left > 0:
             raise ValueError(f"bands: expected {self.height} rows in all, found {self.height - left}")
 
-    def _finished_rows(self, watch: Watch) -> Iterator[Bytes]:
+    def _finished_rows(self, watch: Watch, samples: Samples) -> Iterator[Pixels]:
         """Yields the rows of the stream that are finished."""
+        kind, channels = samples
         written = ctypes.c_int32(1)
         while written.value > 0:
-            rows = np.empty((_PULLED_ROWS, self.width, 3), np.uint8)
+            rows = np.empty((_PULLED_ROWS, self.width, channels), _written_type(kind))
             image = as_image(rows)
             self._call(watch, library.starfocus_stream_pull, byref(image), _PULLED_ROWS, byref(written))
             if written.value > 0:
-                yield rows[:written.value]
+                yield rows[:written.value].astype(kind, copy=False)
 
     def frames(self, frames: Iterable[Scene], *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
                renderer: Renderer = Renderer.AUTO, progress: Optional[ProgressFunction] = None,
-               **lens: Any) -> Iterator[Bytes]:
+               **lens: Any) -> Iterator[Pixels]:
         """Refocuses the frames of a video with one lens. Yields the picture of each frame, with the bytes of `refocus`.
 
         Superblocks that did not change since the previous frame are copied from the previous picture. The field
-        `reused_blocks` of `report` counts these superblocks. The pictures are new arrays, uint8 of shape (height,
-        width, 3).
+        `reused_blocks` of `report` counts these superblocks. With `deep=1`, no superblock is copied. The pictures are
+        new arrays.
 
         Args:
             frames: light fields: tuples (views, disparity) or (views, disparity, coverage) of arrays as for `refocus`.
@@ -280,32 +299,37 @@ class Refocuser:
             field, kept = light_field([np.array(view) for view in as_list(views)], np.array(as_map(disparity)),
                                       self._config.views, self.height, self.width)
             kept += set_coverage(field, None if coverage is None else np.array(coverage), self.height, self.width)
-            picture = np.empty((self.height, self.width, 3), np.uint8)
+            kind, channels = samples_of(views)
+            picture = np.empty((self.height, self.width, channels), _written_type(kind))
             image = as_image(picture)
             self._call(watch, library.starfocus_refocus, byref(params), byref(field), byref(image))
-            previous = _abi.defaults(_abi.Previous)
-            previous.light_field, previous.out = ctypes.pointer(field), ctypes.pointer(image)
-            params.previous = ctypes.pointer(previous)
-            last[:] = [picture, kept]
-            yield picture.copy()
+            if not self._config.features & _abi.FEATURES["deep"]:
+                previous = _abi.defaults(_abi.Previous)
+                previous.light_field, previous.out = ctypes.pointer(field), ctypes.pointer(image)
+                params.previous = ctypes.pointer(previous)
+                last[:] = [picture, kept]
+            yield picture.astype(kind)
 
-    def _picture(self, params: Structure, out: Optional[Picture], size: Tuple[int, int],
+    def _picture(self, params: Structure, out: Optional[Picture], size: Tuple[int, int], samples: Samples,
                  progress: Optional[ProgressFunction], function: Any, scene: Any, *, keep: List[Any]) -> Picture:
         """Calls starfocus_refocus or a similar function, and returns its picture.
 
-        `size` is the height and width of the picture. `scene` is the light field or prepared light field. `keep`
-        contains the arrays that `scene` refers to.
+        `size` is the height and width of the picture, and `samples` are its samples unless `out` is an Image. `scene`
+        is the light field or prepared light field. `keep` contains the arrays that `scene` refers to.
         """
-        picture: Picture
         if isinstance(out, Image):
-            picture = out
             image, planes = out.as_structure(size[1], size[0], "out", written=True)
-            keep = [*keep, *planes]
-        else:
-            picture = pixels = output(out, (*size, 3), "out")
-            image = as_image(pixels)
+            self._call(Watch(progress), function, byref(params), scene, byref(image))
+            del keep, planes
+            return out
+        kind, channels = samples
+        picture = output(out, (*size, channels), kind, "out")
+        written = picture if kind == _written_type(kind) else np.empty(picture.shape, _written_type(kind))
+        image = as_image(written)
         self._call(Watch(progress), function, byref(params), scene, byref(image))
         del keep
+        if written is not picture:
+            picture[...] = written
         return picture
 
     def _params(self, mode: Mode, renderer: Renderer, region: Optional[RegionOfPicture], **lens: Any) -> Structure:
@@ -356,7 +380,7 @@ class Prepared:
                  progress: Optional[ProgressFunction], coverage: Optional[Array] = None):
         # pylint: disable=protected-access
         config = refocuser._config
-        self._refocuser = refocuser
+        self._refocuser, self._samples = refocuser, samples_of(views)
         field, self._kept = light_field(views, disparity, config.views, config.height, config.width)
         self._kept += set_coverage(field, coverage, config.height, config.width)
         size = ctypes.c_size_t()
@@ -374,7 +398,7 @@ class Prepared:
     @overload
     def refocus(self, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
                 renderer: Renderer = Renderer.AUTO, region: Optional[RegionOfPicture] = None,
-                out: Optional[Array] = None, progress: Optional[ProgressFunction] = None, **lens: Any) -> Bytes: ...
+                out: Optional[Array] = None, progress: Optional[ProgressFunction] = None, **lens: Any) -> Pixels: ...
 
     def refocus(self, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
                 renderer: Renderer = Renderer.AUTO, region: Optional[RegionOfPicture] = None,
@@ -383,8 +407,8 @@ class Prepared:
         # pylint: disable=protected-access
         *_, width, height = part_of(region, self._refocuser.width, self._refocuser.height)
         params = self._refocuser._params(mode, renderer, region, focus=focus, aperture=aperture, **lens)
-        return self._refocuser._picture(params, out, (height, width), progress, library.starfocus_refocus_prepared,
-                                        self._handle, keep=self._kept)
+        return self._refocuser._picture(params, out, (height, width), self._samples, progress,
+                                        library.starfocus_refocus_prepared, self._handle, keep=self._kept)
 
     @overload
     def preview(self, shift: int, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
@@ -394,7 +418,7 @@ class Prepared:
     @overload
     def preview(self, shift: int, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
                 renderer: Renderer = Renderer.AUTO, region: Optional[RegionOfPicture] = None,
-                out: Optional[Array] = None, progress: Optional[ProgressFunction] = None, **lens: Any) -> Bytes: ...
+                out: Optional[Array] = None, progress: Optional[ProgressFunction] = None, **lens: Any) -> Pixels: ...
 
     def preview(self, shift: int, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
                 renderer: Renderer = Renderer.AUTO, region: Optional[RegionOfPicture] = None,
@@ -415,8 +439,23 @@ class Prepared:
         size = -(-(y + height) // side) - y // side, -(-(x + width) // side) - x // side
         params = self._refocuser._params(mode, renderer, region, focus=focus, aperture=aperture, **lens)
         params.preview_shift = shift
-        return self._refocuser._picture(params, out, size, progress, library.starfocus_refocus_prepared, self._handle,
-                                        keep=self._kept)
+        return self._refocuser._picture(params, out, size, self._samples, progress, library.starfocus_refocus_prepared,
+                                        self._handle, keep=self._kept)
+
+
+def _transfer_of(value: Any) -> Any:
+    """Returns the transfer with this name. Values that are not names are returned unchanged."""
+    if not isinstance(value, str):
+        return value
+    names = {transfer.name.lower(): transfer for transfer in Transfer}
+    if value not in names:
+        raise ValueError(f"transfer: expected {', '.join(names)}, found {value!r}")
+    return names[value]
+
+
+def _written_type(kind: "np.dtype[Any]") -> "np.dtype[Any]":
+    """Returns the type of the samples that the library writes for pictures of this type."""
+    return np.dtype(np.float16) if kind == np.float32 else kind
 
 
 def _with_coverage(scene: Sequence[Any]) -> Tuple[Views, Array, Optional[Array]]:

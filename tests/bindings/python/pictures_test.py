@@ -333,6 +333,113 @@ class Streams(unittest.TestCase):
         same(made[1], engine.refocus(VIEWS, DISPARITY, focus=1))
 
 
+class Deep(unittest.TestCase):
+    """Pictures of more than 8 bits, light beyond white and alpha. The tests of the C API check their pixels."""
+
+    CODES = [257 * view.astype(np.uint16) for view in VIEWS]
+    LIGHT = [((view / 255.0) ** 2.2).astype(np.float16) for view in VIEWS]
+
+    def refocused(self, views, **config):
+        engine = starfocus.Refocuser.for_light_field(views, DISPARITY, **config)
+        picture = engine.refocus(views, DISPARITY, focus=1)
+        self.assertEqual((picture.dtype, picture.shape), (views[0].dtype, views[0].shape))
+        return picture
+
+    def test_codes_of_16_bits_give_the_picture_of_8_bits(self):
+        flat = refocuser().refocus(VIEWS, DISPARITY, focus=1)
+        self.assertLessEqual(np.abs(self.refocused(self.CODES) - 257.0 * flat).max(), 257)
+
+    def test_light_is_linear(self):
+        """The features exclude coverage, whose decisions depend on codes."""
+        bright = self.refocused([np.float16(32) * view for view in self.LIGHT], coverage=0)
+        error = bright / np.float64(32) - self.refocused(self.LIGHT, coverage=0)
+        self.assertLess(np.abs(error).max(), 0.1)
+        self.assertLess(np.sqrt((error**2).mean()), 0.003)
+
+    def test_alpha_is_refocused(self):
+        opaque = self.refocused([np.dstack([view, np.full_like(view[:, :, 0], 65535)]) for view in self.CODES])
+        same(opaque[:, :, :3], self.refocused(self.CODES))
+        self.assertTrue((opaque[:, :, 3] == 65535).all())
+        # The alpha of white, by which its colours are multiplied, is blurred as its colours are.
+        white = self.refocused([np.repeat(view[:, :, 1:2], 4, axis=2) for view in self.LIGHT])
+        self.assertGreater(np.ptp(white[:, :, 3]), 0.5)
+        self.assertLess(np.abs(white[:, :, 3] - white[:, :, 0].astype(float)).max(), 0.003)
+
+    def test_all_calls_return_the_samples_of_the_views(self):
+        opaque = [np.dstack([view, np.ones_like(view[:, :, 0])]) for view in self.LIGHT]
+        for views in (self.CODES, self.LIGHT, opaque, [view.astype(np.float32) for view in opaque]):
+            kind, channels = views[0].dtype, views[0].shape[2]
+            with self.subTest(kind, channels=channels):
+                engine = starfocus.Refocuser.for_light_field(views, DISPARITY, streaming=1)
+                whole, prepared = engine.refocus(np.stack(views), DISPARITY, focus=1), engine.prepare(views, DISPARITY)
+                out = np.zeros((20, 54, channels), kind)
+                self.assertIs(prepared.refocus(focus=1, region=(40, 30, 50, 20), out=out[:, 2:-2]).base, out)
+                same(out, np.pad(whole[30:50, 40:90], ((0, 0), (2, 2), (0, 0))))
+                scenes = [([view[y:y + 50] for view in views], DISPARITY[y:y + 50]) for y in range(0, HEIGHT, 50)]
+                same(np.concatenate(list(engine.stream(scenes, focus=1))), whole)
+                made = [*engine.frames([(views, DISPARITY)] * 2, focus=1), prepared.refocus(focus=1)]
+                for picture in made:
+                    same(picture, whole)
+                self.assertEqual({(picture.dtype, picture.shape[2]) for picture in made}, {(kind, channels)})
+
+    def test_floats_of_32_bits_give_the_picture_of_16_bits(self):
+        wide = [view.astype(np.float32) for view in self.LIGHT]
+        same(self.refocused(wide), self.refocused(self.LIGHT).astype(np.float32))
+        black = [np.where(view < 0.1, 0, view) for view in wide]
+        same(self.refocused([np.where(view < 0.1, np.float32(-1e9), view) for view in wide]), self.refocused(black))
+
+    def test_transfers_have_names(self):
+        made = {}
+        for name in ("srgb", "none", "pq", "hlg"):
+            made[name] = self.refocused(self.CODES, transfer=name)
+            same(made[name], self.refocused(self.CODES, transfer=starfocus.Transfer[name.upper()]))
+        self.assertEqual(len({picture.tobytes() for picture in made.values()}), 4)
+
+    def test_images_give_the_same_samples(self):
+        engine = starfocus.Refocuser.for_light_field(self.CODES, DISPARITY)
+        images, out = [Image(Format.RGB16, [view]) for view in self.CODES], Image.empty(Format.RGBA16, WIDTH, HEIGHT)
+        engine.refocus(images, DISPARITY, focus=1, out=out)
+        same(out.planes[0].reshape(HEIGHT, WIDTH, 4)[:, :, :3], engine.refocus(self.CODES, DISPARITY, focus=1))
+        for form, kind in ((Format.RGB_HALF, np.float16), (Format.P010, np.uint16), (Format.NV12, np.uint8)):
+            out = Image.empty(form, WIDTH, HEIGHT)
+            engine.refocus(self.CODES, DISPARITY, focus=1, out=out)
+            self.assertEqual(out.planes[0].dtype, kind)
+        self.assertEqual(engine.refocus(images, DISPARITY, focus=1).dtype, np.uint8)
+
+    def test_wrong_samples_name_their_cause(self):
+        engine = starfocus.Refocuser.for_light_field(self.CODES, DISPARITY)
+        types = "view 0: expected uint8, uint16, float16 or float32, found "
+        rows = [([view.astype(kind) for view in VIEWS], TypeError, f"^{types}{np.dtype(kind)}$")
+                for kind in (np.float64, np.int16, np.uint32, bool, np.complex64)]
+        rows += [([view.astype(">u2") for view in VIEWS], TypeError, f"^{types}>u2$"),
+                 ([*self.CODES[:4], VIEWS[4]], TypeError, "^view 4: expected uint16, found uint8$"),
+                 ([view[:, :, :2] for view in self.CODES], ValueError, "view 0: expected the shape"),
+                 ([np.dstack([view, view]) for view in VIEWS], ValueError, "view 0: expected the shape")]
+        for kind in (np.float16, np.float32):
+            for value in (np.nan, -np.nan, np.inf, -np.inf, 64.5):
+                views = [view.astype(kind) for view in self.LIGHT]
+                views[2][5, 7, 1] = value
+                rows.append((views, ValueError, rf"^view 2: expected finite values up to 64, found .* at \(7, 5\)$"))
+        for views, error, message in rows:
+            with self.subTest(message), self.assertRaisesRegex(error, message):
+                engine.refocus(views, DISPARITY, focus=1)
+        views = [view.astype(np.float32) for view in self.LIGHT]
+        views[0][:] = 64
+        engine.refocus(views, DISPARITY, focus=1)
+        for call, error, message in (
+                (lambda: refocuser().refocus(self.CODES, DISPARITY, focus=1), starfocus.ArgumentError,
+                 "format of 8 bits without STARFOCUS_FEATURE_DEEP"),
+                (lambda: engine.refocus(self.CODES, DISPARITY, focus=1, out=VIEWS[0].copy()), TypeError,
+                 "^out: expected an array of uint16$"),
+                (lambda: engine.refocus(self.CODES, DISPARITY, focus=1, out=Image(Format.RGB16, VIEWS[:1])), TypeError,
+                 "^out, plane 0: expected uint16, found uint8$"),
+                (lambda: refocuser(transfer="gamma"), ValueError, "^transfer: expected srgb, none, pq, hlg, found 'gamma'$"),
+                (lambda: refocuser(transfer="pq"), starfocus.ArgumentError, "transfer: .*without STARFOCUS_FEATURE_DEEP"),
+                (lambda: starfocus.estimate_disparity(self.CODES, -1, 1), TypeError, "^views: expected uint8, found uint16$")):
+            with self.subTest(message), self.assertRaisesRegex(error, message):
+                call()
+
+
 class Enumerations(unittest.TestCase):
     """The package declares the same values as the C headers. The library itself lists the fields of structures."""
 
