@@ -3,14 +3,15 @@
 // mask of the subject instead of a map), or Apple's depth and matte (auxiliary pictures behind the photo).
 // platform/readers does the same for the programs.
 
-import {isJpeg, readFurtherPictures} from './jpeg.js';
+import {APP2, hasName, isJpeg, readFurtherPictures} from './jpeg.js';
 import {isPng} from './problem.js';
 import {readXmp, valueOf, Xmp} from './xmp.js';
 
 const GOOGLE = 'http://ns.google.com/photos/1.0/', DYNAMIC = 'http://ns.google.com/photos/dd/1.0/';
 const DEPTH = `${GOOGLE}depthmap/`, IMAGE = `${GOOGLE}image/`, MAP = `${DYNAMIC}depthmap/`;
 const ITEMS = [`${DYNAMIC}item/`, `${GOOGLE}container/item/`];
-const GAIN = 'http://ns.adobe.com/hdr-gain-map/1.0/', ORIGINAL = 'android/original_image';
+const GAIN = 'http://ns.adobe.com/hdr-gain-map/1.0/', ISO_GAIN = 'urn:iso:std:iso:ts:21496:-1\0';
+const ORIGINAL = 'android/original_image';
 const PIXELS = 'http://ns.apple.com/pixeldatainfo/1.0/', APPLE = 'http://ns.apple.com/depthData/1.0/';
 const METRES = {m: 1, meters: 1, mm: 0.001, millimeters: 0.001};
 
@@ -67,8 +68,12 @@ async function readGDepth(name, xmp) {
   return {depth, image, range: googleRange(format, near, far, units)};
 }
 
-/** Returns true for the gain map of a photo with a high dynamic range, which is never depth. */
-const isGainMap = ({segments}) => readXmp(segments).get(GAIN, 'Version') !== undefined;
+/** Returns true for the gain map of a photo with a high dynamic range by Adobe, Apple or ISO 21496-1, which is never depth. */
+function isGainMap({segments}) {
+  const xmp = readXmp(segments);
+  return xmp.get(GAIN, 'Version') !== undefined || Boolean(xmp.get(PIXELS, 'AuxiliaryImageType')?.endsWith('hdrgainmap')) ||
+      segments.some(segment => hasName(segment, APP2, ISO_GAIN));
+}
 
 /** Returns the position of item `index` of the directory: a picture of the length that the directory states; otherwise by
  *  the lengths of the items before or behind it, or by its first bytes. Returns -1 if there is no picture. */
@@ -103,6 +108,12 @@ function readItems(xmp) {
     if (items.length) return items;
   }
   return [];
+}
+
+/** Returns true if a gain map follows the photo in a JPEG file. */
+export function hasGainMap(bytes, {segments, end}) {
+  const pictures = readFurtherPictures(bytes, end);
+  return pictures.some(isGainMap) || pictures.length > 0 && readItems(readXmp(segments)).some(({semantic}) => semantic === 'GainMap');
 }
 
 const isMask = map => valueOf(map, MAP, 'ItemSemantic') === 'Segmentation';

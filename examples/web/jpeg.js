@@ -3,7 +3,8 @@
 // colour profile of a photo to another JPEG file.
 
 export const APP1 = 0xE1;  // marker of segments with EXIF or XMP
-const START = 0xD8, END = 0xD9, SCAN = 0xDA, APP2 = 0xE2;
+export const APP2 = 0xE2;  // marker of segments with a colour profile, or with the metadata of a gain map
+const START = 0xD8, END = 0xD9, SCAN = 0xDA;
 const MOST_PICTURES = 64;  // a start code without a picture makes the search read the rest of the file
 const EXIF = 'Exif\0\0', PROFILE = 'ICC_PROFILE\0';
 const ORIENTATION = 0x0112;

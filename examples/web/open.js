@@ -8,11 +8,11 @@
 // photo `file` without depth and matte, in which segment() of pixels.js can find a person. Other files cause an Error with
 // a message.
 
-import {heicRange, readDepth} from './depth_photo.js';
+import {hasGainMap, heicRange, readDepth} from './depth_photo.js';
 import {isJpeg, keepItems, keepSegments, orientationOf, readJpeg} from './jpeg.js';
 import {parsePfm} from './pfm.js';
 import {call, decodeHeic, hasSegmenter} from './pixels.js';
-import {checkPicture, isHeif, namesDepth} from './problem.js';
+import {checkPicture, isHeif, namesDepth, namesGainMap} from './problem.js';
 import {reduce} from './reduce.js';
 import {readStereo} from './stereo.js';
 
@@ -97,12 +97,12 @@ async function understand(depth, {first, last, isDistance, metres, near}, orient
 /** Returns true if a map or matte has the proportions of the stored photo, and is turned with the photo. Squares are upright. */
 const isAsStored = (orientation, photo, {width, height}) => orientation >= 5 && width !== height && (photo.width < photo.height) !== (width < height);
 
-/** Reads a JPEG file. Returns {bytes, jpeg, kept, orientation}; jpeg is null for other files. */
+/** Reads a JPEG file. Returns {bytes, jpeg, kept, orientation, hasGain}; jpeg is null for other files. */
 async function readPhoto(file) {
   const bytes = new Uint8Array(await file.arrayBuffer());
-  if (!isJpeg(bytes)) return {bytes, jpeg: null, kept: [], orientation: 1};
+  if (!isJpeg(bytes)) return {bytes, jpeg: null, kept: [], orientation: 1, hasGain: isHeif(bytes) && namesGainMap(bytes)};
   const jpeg = readJpeg(bytes);
-  return {bytes, jpeg, kept: keepSegments(jpeg.segments), orientation: orientationOf(jpeg.segments)};
+  return {bytes, jpeg, kept: keepSegments(jpeg.segments), orientation: orientationOf(jpeg.segments), hasGain: hasGainMap(bytes, jpeg)};
 }
 
 /** Returns a photo without depth. A matte may be added to it. `reason` is the end of the error if the site has no
@@ -112,14 +112,14 @@ async function openFlat(file, found, isMatted, reason = `contains no depth map. 
   return {name: file.name, stem: stemOf(file.name), depth: null, options: {}, distances: null, isFlat: true, file, ...found};
 }
 
-async function openHeic(file, bytes, isMatted) {
+async function openHeic(file, {bytes, hasGain}, isMatted) {
   const hasDepth = namesDepth(bytes), found = hasDepth || !await isReadable(file) ? await decodeHeic(file) : null;
   const image = found?.image ?? file, bitmap = await checkPicture(image, file.name);
   const kept = found ? keepItems(found.exif, found.profile) : [], matte = found?.matte ?? undefined;
-  const photo = {stem: stemOf(file.name), images: [image], bitmap, kept, file, storesMatte: true};
+  const photo = {stem: stemOf(file.name), images: [image], bitmap, kept, file, storesMatte: true, hasGain};
   if (matte && !found.depth) return {...photo, name: `portrait ${file.name}`, depth: null, options: {matte}, distances: null};
   if (!found?.depth) {
-    return openFlat(file, {images: [image], bitmap, kept}, isMatted, hasDepth && !found ?
+    return openFlat(file, {images: [image], bitmap, kept, hasGain}, isMatted, hasDepth && !found ?
         'is a HEIC picture, whose depth browsers cannot read. Open the picture together with its depth picture.' : undefined);
   }
   checkSize(file.name, bitmap, found.depth);
@@ -157,17 +157,17 @@ async function openStereo(file, pair, kept) {
 /** Opens a photo with its depth map or mask in the same file, or without depth. A damaged mask does not matter if there is
  *  a map. The caller adds a matte if `isMatted` is true. */
 async function openDepthPhoto(file, isMatted) {
-  const {bytes, jpeg, kept, orientation} = await readPhoto(file);
-  if (isHeif(bytes)) return openHeic(file, bytes, isMatted);
+  const read = await readPhoto(file), {bytes, jpeg, kept, orientation, hasGain} = read;
+  if (isHeif(bytes)) return openHeic(file, read, isMatted);
   const bitmap = await checkPicture(file), found = jpeg && await readDepth(file.name, bytes, jpeg);
   const pair = jpeg && !found && readStereo(file.name, bytes, jpeg);
   if (pair) {
     bitmap.close();
-    return openStereo(file, pair, kept);
+    return {...await openStereo(file, pair, kept), hasGain};
   }
-  if (!found) return openFlat(file, {images: [file], bitmap, kept, orientation}, isMatted);
+  if (!found) return openFlat(file, {images: [file], bitmap, kept, orientation, hasGain}, isMatted);
   const sharp = found.image && await checkPicture(found.image, `The sharp picture of ${file.name}`);
-  const photo = {stem: stemOf(file.name), images: [found.image ?? file], bitmap: sharp ?? bitmap, kept, orientation, file, storesMatte: true};
+  const photo = {stem: stemOf(file.name), images: [found.image ?? file], bitmap: sharp ?? bitmap, kept, orientation, file, storesMatte: true, hasGain};
   const {mask, isBlack} = found, matte = mask && !isMatted && await call('mask', {file: mask, orientation, isBlack}).catch(() => null);
   if (!found.depth && !matte) {
     return openFlat(file, photo, isMatted, 'has a damaged mask of its subject, and no depth map.');
@@ -194,23 +194,23 @@ async function openPair(files) {
   const map = files.find(file => /\.pfm$/i.test(file.name));
   if (map) {
     const photo = files.find(file => file !== map), bitmap = await checkPicture(photo);
-    const depth = parsePfm(await map.arrayBuffer(), map.name);
+    const depth = parsePfm(await map.arrayBuffer(), map.name), {kept, hasGain} = await readPhoto(photo);
     checkSize(photo.name, bitmap, depth);
     return {
       name: `${photo.name} with ${map.name}`, stem: stemOf(photo.name), images: [photo], bitmap,
-      depth, options: {disparity: true}, distances: null, kept: (await readPhoto(photo)).kept
+      depth, options: {disparity: true}, distances: null, kept, hasGain
     };
   }
   const bitmaps = [];
   for (const file of files) bitmaps.push(await checkPicture(file));
   const index = await findDepth(files), photo = files[1 - index], bitmap = bitmaps[1 - index];
-  const {kept, orientation} = await readPhoto(photo), {width, height} = bitmaps[index];
+  const {kept, orientation, hasGain} = await readPhoto(photo), {width, height} = bitmaps[index];
   const isStored = isAsStored(orientation, bitmap, {width, height}), depth = isStored ? await call('levels', {file: files[index], orientation}) : files[index];
   checkSize(photo.name, bitmap, isStored ? depth : {width, height});
   bitmaps[index].close();
   return {
     name: `${photo.name} with ${files[index].name}`, stem: stemOf(photo.name), images: [photo], bitmap, depth, options: {},
-    distances: null, kept, orientation
+    distances: null, kept, orientation, hasGain
   };
 }
 

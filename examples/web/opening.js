@@ -47,9 +47,10 @@ async function start(found, options, signal) {
   }
 }
 
-/** Shows the version of the engine, the number of threads, and a sentence about the depth. */
+/** Shows the version of the engine, the number of threads, a sentence about the depth, and a note about the open photo. */
 function showEngine({version, threads: count}, depth = '') {
-  get('engine').textContent = `starfocus ${version}, ${count} ${count === 1 ? 'thread' : 'threads'}.${depth}`;
+  const gain = state.current.found.hasGain ? ' The gain map of the photo is dropped, because pictures have 8 bits.' : '';
+  get('engine').textContent = `starfocus ${version}, ${count} ${count === 1 ? 'thread' : 'threads'}.${depth}${gain}`;
 }
 
 /** Replaces the open photo. `isRough` is true if its depth is not repaired yet. */

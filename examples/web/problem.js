@@ -6,12 +6,17 @@ import {isJpeg, latin, readJpeg} from './jpeg.js';
 
 const HEIF_BRANDS = /^(hei[cxms]|hev[cxms]|mif1|msf1)$/;
 const DEPTH_TYPE = /urn:(mpeg:(hevc:2015:auxid:2|mpegB:cicp:systems:auxiliary:depth)|com:apple:photo:2018:aux:portraiteffectsmatte)\0/;
+// Auxiliary pictures of Apple, and items of ISO 21496-1, whose type follows the version, flags and number of the item.
+const GAIN_TYPE = /urn:com:apple:photo:2020:aux:hdrgainmap\0|infe[\x02\x03][^]{7,9}tmap/;
 
 /** Returns true if the bytes start a HEIC file. */
 export const isHeif = bytes => latin(bytes.subarray(4, 8)) === 'ftyp' && HEIF_BRANDS.test(latin(bytes.subarray(8, 12)));
 
 /** Returns true if a HEIC file names the type of auxiliary pictures with depth or the matte of a person. */
 export const namesDepth = bytes => DEPTH_TYPE.test(latin(bytes));
+
+/** Returns true if a HEIC file names the type of gain maps. */
+export const namesGainMap = bytes => GAIN_TYPE.test(latin(bytes));
 
 /** Returns true if a PNG file starts at this position. */
 export const isPng = (bytes, at = 0) => bytes[at] === 0x89 && latin(bytes.subarray(at + 1, at + 4)) === 'PNG';

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the two pictures of a stereo photo (MPO), as platform/readers/stereo_pair.cc does for the programs.
 
-import {hasName, latin, readDirectory, readFurtherPictures, unturned} from './jpeg.js';
+import {APP2, hasName, latin, readDirectory, readFurtherPictures, unturned} from './jpeg.js';
 
-const INDEX = 'MPF\0', APP2 = 0xE2, ENTRIES = 0xB002, ENTRY = 16;
+const INDEX = 'MPF\0', ENTRIES = 0xB002, ENTRY = 16;
 const UNDEFINED = 0, STEREO = 0x020002;  // picture types of CIPA DC-007
 
 /** Returns the type of the second picture in the multi-picture index, UNDEFINED if the index lacks it, or null if there

@@ -3,9 +3,9 @@
 
 const SEGMENT = 1000;  // bytes of data per segment, small enough for several segments
 
-function segment(header, text) {
+function segment(header, text, marker = 0xE1) {
   const body = Buffer.concat([Buffer.from(header, 'latin1'), Buffer.from(text, 'latin1')]);
-  const start = Buffer.from([0xFF, 0xE1, 0, 0]);
+  const start = Buffer.from([0xFF, marker, 0, 0]);
   start.writeUInt16BE(body.length + 2, 2);
   return Buffer.concat([start, body]);
 }
@@ -37,6 +37,9 @@ const insert = (jpeg, part) => Buffer.concat([jpeg.subarray(0, 2), part, jpeg.su
 /** Marks a JPEG as the gain map of a photo with a high dynamic range. */
 export const markGain = jpeg => insert(jpeg, segment('http://ns.adobe.com/xap/1.0/\0',
     '<x:xmpmeta xmlns:x="adobe:ns:meta/" xmlns:hdrgm="http://ns.adobe.com/hdr-gain-map/1.0/"><d hdrgm:Version="1.0"/></x:xmpmeta>'));
+
+/** Marks a JPEG as a gain map by ISO 21496-1. The metadata are empty. */
+export const markIsoGain = jpeg => insert(jpeg, segment('urn:iso:std:iso:ts:21496:-1\0', '', 0xE2));
 
 /** Marks a JPEG as an auxiliary picture of Apple, which is appended to its photo. `kind` are XMP elements without prefix. */
 export const markApple = (jpeg, kind) => insert(jpeg, segment('http://ns.adobe.com/xap/1.0/\0',

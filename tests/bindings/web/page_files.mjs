@@ -8,7 +8,7 @@ import {join} from 'node:path';
 import test from 'node:test';
 import sharp from 'sharp';
 
-import {makeDynamicDepth, makeGDepth, markGain} from './gdepth_photo.mjs';
+import {makeDynamicDepth, makeGDepth, markApple, markGain, markIsoGain} from './gdepth_photo.mjs';
 import {
   andFull, andWait, choose, drawPhoto, driver, error, file, focusText, load, openFiles, screenshot,
   setSlider, shown, shownDepth, site, sources, tap, waitFor, without
@@ -165,6 +165,31 @@ test('portraits open with their original picture, and a gain map is never depth'
       assert.ok(shades[3 * 10] - shades[3 * 54] > 100, 'the map is a ramp');
       await choose('picture');
     }
+  }
+});
+
+test('a note says that a gain map is dropped', async () => {
+  const {jpeg, png} = await drawPhoto(64, 48), depth = file('depth.png', png), small = await sharp(jpeg).resize(16).jpeg().toBuffer();
+  const appended = extra => Buffer.concat([jpeg, extra]), phone = makeGDepth(jpeg, png);
+  const box = text => Buffer.from(`\0\0\0${String.fromCharCode(8 + text.length)}free${text}`, 'latin1'), heic = heicSample();
+  const note = /^starfocus \S+, \d threads?\. The gain map of the photo is dropped, because pictures have 8 bits\.$/;
+  for (const [expected, name, ...files] of [
+    [true, 'adobe', file('adobe.jpg', appended(markGain(small))), depth],
+    [true, 'apple', file('apple.jpg', appended(markApple(small, {AuxiliaryImageType: 'urn:com:apple:photo:2020:aux:hdrgainmap'}))), depth],
+    [true, 'iso', file('iso.jpg', appended(markIsoGain(small))), depth],
+    [true, 'phone', file('phone.jpg', Buffer.concat([phone, markGain(small)]))],
+    [false, 'plain', file('plain.jpg', jpeg), depth],
+    [false, 'thumbnail', file('thumbnail.jpg', appended(small)), depth],
+    [false, 'stripped', file('stripped.jpg', markGain(jpeg)), depth],
+    ...noDecoder ? [] : [
+      [true, 'tone', file('tone.heic', Buffer.concat([heic, box('infe\x02\0\0\0\0\x05\0\0tmap\0')]))],
+      [true, 'aux', file('aux.heic', Buffer.concat([heic, box('urn:com:apple:photo:2020:aux:hdrgainmap\0')]))],
+      [false, 'small', file('small.heic', heic)]
+    ]
+  ]) {
+    await opened(new RegExp(`^Opened: .*${name}\\.`), ...files);
+    const text = await driver.page.textContent('#engine');
+    assert.equal(note.test(text), expected, `${name}: ${text}`);
   }
 });
 
