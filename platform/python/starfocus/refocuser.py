@@ -426,16 +426,13 @@ class Prepared:
         """Refocuses the light field at 1 / 2**shift of its size, in about 1 / 4**shift of the time.
 
         Args:
-            shift: from 1 to the field `previews` of the refocuser's configuration; otherwise raises ArgumentError, as
-                for refocusers with `deep=1`, which have no previews.
+            shift: from 1 to the field `previews` of the refocuser's configuration; otherwise raises ArgumentError.
 
         The other arguments are those of `Refocuser.refocus`, in pixels of the full size. The preview of a region has
         all pixels that contain a part of the region.
         """
         # pylint: disable=protected-access
         x, y, width, height = part_of(region, self._refocuser.width, self._refocuser.height)
-        if self._refocuser._config.features & _abi.FEATURES["deep"]:
-            raise ArgumentError(Status.FEATURE, _abi.Problem(Status.FEATURE, 0, b"shift", b"no preview with deep=1", shift))
         if not 1 <= whole(shift, "shift") <= self._refocuser._config.previews:
             raise ArgumentError(Status.PREPARED, _abi.Problem(Status.PREPARED, 0, b"shift", b"1 to previews", shift))
         side = 1 << shift
