@@ -391,7 +391,8 @@ void AddFigures(const EngineTask& task, const EngineResult& result, Json* json) 
   }
   json->Set("aperture", lens.aperture);
   json->Set("highlights", task.config.highlights);
-  json->Set("transfer", task.config.transfer == STARFOCUS_TRANSFER_NONE ? "none" : "srgb");
+  constexpr const char* kTransfers[] = {"srgb", "none", "pq", "hlg"};
+  json->Set("transfer", kTransfers[task.config.transfer]);
   json->Set("shape", ShapeJson(lens));
   json->Set("n_scale", task.config.tuning.n_scale);
   json->Set("r_max", result.report.r_max);

@@ -78,7 +78,9 @@ starfocus_status RefocusPreview(const FullParams& params, const Prepared& prepar
   if (!check.passed()) return check.status();
   EngineState reduced = PreviewEngine(ReducedConfig(config, shift), engine);
   const ReducedField& field = prepared.reduced[shift];
-  reduced.input = InputOf(reduced.config, *reduced.kernels, field.views, field.disparity,
+  StoredViews views = field.views;
+  views.tables = reduced.deep;
+  reduced.input = InputOf(reduced.config, *reduced.kernels, views, field.disparity,
                           prepared.covers ? field.coverage : Plane<uint8_t>());
   reduced.input.has_alpha = prepared.has_alpha;
   return RunCall(ReducedParams(params, rect), OutputOf(reduced, out, rect), {}, nullptr, &reduced,
@@ -128,7 +130,7 @@ void CheckPrevious(const EngineState& engine, const FullParams& params, const st
   const Rect rect = RegionOf(config, params);
   if (!check->passed()) return;
   check->Read(*params.previous, "previous.size", previous);
-  check->Need(!Has(config, STARFOCUS_FEATURE_DEEP), STARFOCUS_ERROR_FEATURE, {"previous"},
+  check->Need(!HasDeep(config), STARFOCUS_ERROR_FEATURE, {"previous"},
               {"null with STARFOCUS_FEATURE_DEEP"});
   check->NotNull(previous->light_field, "previous.light_field");
   check->NotNull(previous->out, "previous.out");

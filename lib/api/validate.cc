@@ -142,13 +142,13 @@ void CheckConfig(const FullConfig& config, Checker* check) {
   CheckTuning(config.tuning, check);
   constexpr uint32_t kFeatures = STARFOCUS_FEATURE_COVERAGE | STARFOCUS_FEATURE_STREAMING |
                                  STARFOCUS_FEATURE_IMAGES | STARFOCUS_FEATURE_SHAPES |
-                                 STARFOCUS_FEATURE_DEEP;
+                                 (kDeep ? STARFOCUS_FEATURE_DEEP : 0);
   check->Need((config.features & ~kFeatures) == 0, STARFOCUS_ERROR_RANGE,
               {"features", double(config.features)}, {"bits of STARFOCUS_FEATURE_"});
   check->In({"unknown", double(config.unknown)},
             {"a starfocus_unknown", 0, STARFOCUS_UNKNOWN_FILL});
   check->In({"previews", double(config.previews)}, STARFOCUS_FROM_TO(0, STARFOCUS_MAX_PREVIEW));
-  const bool deep = Has(config, STARFOCUS_FEATURE_DEEP);
+  const bool deep = HasDeep(config);
   check->In({"transfer", double(config.transfer)},
             {deep ? "a starfocus_transfer" : "SRGB or NONE without STARFOCUS_FEATURE_DEEP", 0,
              double(deep ? STARFOCUS_TRANSFER_HLG : STARFOCUS_TRANSFER_NONE)});
@@ -360,7 +360,7 @@ void CheckInPlace(const FullConfig& config, const starfocus_light_field& light_f
 void CheckLightField(const FullConfig& config, const starfocus_light_field& light_field,
                      Checker* check) {
   const int32_t width = config.width, height = config.height;
-  CheckViews(light_field, config.views, width, height, Has(config, STARFOCUS_FEATURE_DEEP), check);
+  CheckViews(light_field, config.views, width, height, HasDeep(config), check);
   CheckBytes(light_field.coverage, light_field.coverage_stride, width, height, "coverage_stride",
              check);
   CheckDepthMap(light_field.depth, width, height, check);
@@ -392,7 +392,7 @@ void AddImage(const starfocus_image& image, int32_t width, int32_t height, Exten
 
 void CheckOutput(const FullConfig& config, const starfocus_image& image, int32_t width,
                  int32_t height, Checker* check) {
-  CheckImage(image, Has(config, STARFOCUS_FEATURE_DEEP), width, height, kOutNames, 0, check);
+  CheckImage(image, HasDeep(config), width, height, kOutNames, 0, check);
   if (!ReadsImages(config)) NeedInPlace(image, kOutNames, 0, check);
 }
 

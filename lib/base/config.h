@@ -27,9 +27,22 @@ inline bool Has(const starfocus_config& config, uint32_t feature) {
   return (config.features & feature) != 0;
 }
 
+// False in builds without the code for deep pictures, such as the npm package, whose pictures have
+// 8 bits (STARFOCUS_DEEP in CMakeLists.txt).
+#ifdef STARFOCUS_WITHOUT_DEEP
+inline constexpr bool kDeep = false;
+#else
+inline constexpr bool kDeep = true;
+#endif
+
+// Returns true if pictures may be deep (lib/io/deep.h).
+inline bool HasDeep(const starfocus_config& config) {
+  return kDeep && Has(config, STARFOCUS_FEATURE_DEEP);
+}
+
 // Returns true if pictures and maps may have any format.
 inline bool ReadsImages(const starfocus_config& config) {
-  return (config.features & (STARFOCUS_FEATURE_IMAGES | STARFOCUS_FEATURE_DEEP)) != 0;
+  return Has(config, STARFOCUS_FEATURE_IMAGES) || HasDeep(config);
 }
 
 // Return the limits of disparities in float, the type of the values in depth maps.

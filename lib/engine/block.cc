@@ -271,7 +271,7 @@ void RefocusViews(const BlockPass& p) {
   // whole block later.
   const bool in_part = block.layer > 0 && block.gathers;
   // Deep pixels are copied with their excess, but that of highlights must be added.
-  const bool adds = engine.input.deep == nullptr && block.passes[kExcessPass];
+  const bool adds = !engine.input.is_deep() && block.passes[kExcessPass];
   const bool copies =
       !adds && !in_part && (WeightsOf(lens, block.n).n == 0 || lens.renderer->nothing_moves(job));
   if (!copies) return Render(p, job);

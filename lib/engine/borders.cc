@@ -73,7 +73,7 @@ Borders AddBorders(const FullConfig& config, double max_blur, bool deblocks) {
                            ? 0
                            : LargestMove(config) + CapturedBorder(0);
   borders.views = Max(borders.views, borders.centre + read);
-  const bool deep = Has(config, STARFOCUS_FEATURE_DEEP);
+  const bool deep = HasDeep(config);
   if (config.highlights > 1 || deep) {
     // The border for highlights is slightly larger than the distance by which blur and disparity
     // move highlights.

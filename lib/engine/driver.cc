@@ -61,7 +61,7 @@ starfocus_status ReadRows(const Range& rows, const Plane<int16_t>* disparity, En
   const FullConfig& config = engine->config;
   const Input& in = engine->input;
   const bool has_map = in.map.map.data != nullptr;
-  const bool converts = (in.converts_centre || in.deep != nullptr) && disparity != nullptr;
+  const bool converts = (in.converts_centre || in.is_deep()) && disparity != nullptr;
   if (rows.first >= rows.last || !(has_map || converts)) return STARFOCUS_OK;
   const int32_t jobs =
       Min(MaxJobs(config), (rows.last - rows.first + kRowsAtOnce - 1) / kRowsAtOnce);

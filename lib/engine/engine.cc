@@ -105,7 +105,7 @@ void TakeRows(const FullConfig& config, Arena* arena, EngineState* engine) {
   TakeInput(config, rows, rows + config.superblock + kDeblockRows, arena, &engine->rings);
   engine->rings.tables = engine->deep;
   const int32_t out_rows = config.superblock + kDeblockRows;
-  const bool deep = Has(config, STARFOCUS_FEATURE_DEEP);
+  const bool deep = HasDeep(config);
   TakePictureRows(width, out_rows, deep, arena, &engine->stripe.out);
   engine->stripe.last_rows = {};
   if (streaming) TakePictureRows(width, kDeblockRows, deep, arena, &engine->stripe.last_rows);
@@ -132,7 +132,7 @@ void TakeShared(const FullConfig& config, Arena* arena, EngineMemory* memory) {
     scratch[worker].cancel = CancelToken(&memory->jobs.call_progress);
   }
   memory->engine.scratch = scratch;
-  const bool deep = Has(config, STARFOCUS_FEATURE_DEEP);
+  const bool deep = HasDeep(config);
   memory->engine.deep = deep ? arena->Take<DeepTables>(1) : nullptr;
 }
 
@@ -184,7 +184,7 @@ size_t LayOut(const FullConfig& config, void* base, EngineState** engine,
   made.memory = &memory;
   made.bytes = arena.Bytes();
   *engine = base == nullptr ? nullptr : &made;
-  if (base != nullptr && made.deep != nullptr) FillDeepTables(config.transfer, made.deep);
+  if (kDeep && base != nullptr && made.deep != nullptr) FillDeepTables(config.transfer, made.deep);
   return made.bytes;
 }
 
@@ -201,8 +201,8 @@ Output OutputOf(const EngineState& engine, const starfocus_image& image, const R
 }
 
 Input InputOf(const EngineState& engine, Pass pass, const Scratch& scratch) {
-  Input in = pass == kAlphaPass ? DeepAlphaOf(engine.input)
-             : engine.input.deep != nullptr
+  Input in = kDeep && pass == kAlphaPass ? DeepAlphaOf(engine.input)
+             : engine.input.is_deep()
                  ? DeepExcessOf(engine.input, engine.stripe.excess_shift)
                  : ExcessOf(engine.input, engine.config.highlights, scratch.lamp_lengths);
   in.captured = &engine.input;

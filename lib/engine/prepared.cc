@@ -96,7 +96,7 @@ void StoreMeans(const Prepared& prepared, const EngineState& engine, int view, i
   const StoredViews& views = prepared.reduced[shift].views;
   const auto count = static_cast<size_t>(ReducedSize(part.width, shift));
   const ptrdiff_t x = part.x >> shift;
-  if (engine.input.deep == nullptr) {
+  if (!engine.input.is_deep()) {
     engine.kernels->Encode(means[kLightPass], 3 * count, *engine.input.transfer,
                            views.codes[view].Row(y >> shift) + 3 * x);
     return;
@@ -115,7 +115,7 @@ bool ReduceView(const Prepared& prepared, const EngineState& engine, int view, c
                 Scratch* scratch) {
   const int32_t previews = prepared.config.previews, side = engine.config.superblock;
   const size_t samples = 3 * static_cast<size_t>(part.width);
-  const bool deep = engine.input.deep != nullptr;
+  const bool deep = engine.input.is_deep();
   const int passes = deep ? kPassCount : 1;
   Input others[kPassCount];
   if (deep) {
@@ -259,7 +259,7 @@ void TakeReduced(const FullConfig& config, int shift, Arena* arena, ReducedField
   const auto width = static_cast<size_t>(ReducedSize(config.width, shift));
   const int32_t height = ReducedSize(config.height, shift);
   for (int view = 0; view < config.views; ++view) {
-    if (Has(config, STARFOCUS_FEATURE_DEEP)) {
+    if (HasDeep(config)) {
       field->views.deep[view] = TakePlane<uint16_t>(3 * width, height, arena);
       field->views.deep_alpha[view] = TakePlane<uint16_t>(width, height, arena);
     } else {
@@ -373,7 +373,7 @@ bool Fits(const Prepared& prepared, const FullConfig& config) {
   return made.width == config.width && made.height == config.height && SameViews(made, config) &&
          made.disparity_min == config.disparity_min && made.disparity_max == config.disparity_max &&
          made.tuning.max_layer == config.tuning.max_layer && made.transfer == config.transfer &&
-         Has(made, STARFOCUS_FEATURE_DEEP) == Has(config, STARFOCUS_FEATURE_DEEP);
+         HasDeep(made) == HasDeep(config);
 }
 
 Extent PreparedMemory(const Prepared& prepared) {

@@ -78,7 +78,7 @@ void TakeLayers(const FullConfig& config, Arena* arena, StripeLayers* layers) {
 }
 
 void TakePassLayers(const FullConfig& config, Arena* arena, EngineState* engine) {
-  const bool deep = Has(config, STARFOCUS_FEATURE_DEEP);
+  const bool deep = HasDeep(config);
   for (int pass = kExcessPass; pass < kPassCount; ++pass) {
     for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
       LayerPlane& plane = engine->pass_layers[pass][layer];

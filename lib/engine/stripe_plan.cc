@@ -41,7 +41,7 @@ LightTile TilesAround(const EngineState& engine, const Rect& rect) {
 // Sets the passes of blocks in `rect`.
 void FindPasses(const EngineState& engine, const Rect& rect, Block* blocks, int32_t count) {
   bool excess = false, alpha = false;
-  if (engine.input.deep != nullptr) {
+  if (engine.input.is_deep()) {
     const LightTile tiles = TilesAround(engine, rect);
     excess = tiles.excess_bits != 0;
     alpha = tiles.transparent != 0;
@@ -238,7 +238,7 @@ bool ChooseColumns(const Range& rows, EngineState* engine) {
 
 starfocus_status PlanStripe(const Range& rows, EngineState* engine) {
   const Lens& lens = engine->lens;
-  if (engine->input.deep != nullptr) {
+  if (engine->input.is_deep()) {
     // The excess of the brightest light of the stripe fits into 14 bits, or 15 if it is larger.
     const LightTile tiles =
         TilesAround(*engine, {0, rows.first, engine->config.width, rows.count()});

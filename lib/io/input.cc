@@ -285,7 +285,7 @@ void TakeInput(const FullConfig& config, int32_t rows, int32_t alpha_rows, Arena
   const bool streaming = Has(config, STARFOCUS_FEATURE_STREAMING);
   const bool images = ReadsImages(config);
   const int views = streaming ? config.views : images ? 1 : 0;
-  const bool deep = Has(config, STARFOCUS_FEATURE_DEEP);
+  const bool deep = HasDeep(config);
   *rings = {};
   rings->disparity = TakeRing<int16_t>(width, rows, arena);
   if (deep) {
@@ -337,7 +337,7 @@ Input InputOf(const FullConfig& config, const simd::Kernels& kernels,
     in.read_codes = ReadImageCodes;
     in.centre = Constant(rings->View(0));
   }
-  if (rings->tables != nullptr) {
+  if (kDeep && rings->tables != nullptr) {
     ReadFromDeep(rings->tables, &in);
     in.converts_centre = true;
     for (int view = 0; view < in.views; ++view) {
@@ -371,14 +371,14 @@ Input InputOf(const FullConfig& config, const simd::Kernels& kernels, const Stor
     in.deep_alpha[view] = Constant(views.deep_alpha[view]);
   }
   in.centre = Constant(views.codes[0]);
-  if (views.tables != nullptr) ReadFromDeep(views.tables, &in);
+  if (kDeep && views.tables != nullptr) ReadFromDeep(views.tables, &in);
   in.disparity = Constant(disparity);
   in.given_coverage = Constant(coverage);
   return in;
 }
 
 void ConvertRow(const Input& in, int32_t y, bool all_views, const InputRings& rings) {
-  if (in.deep == nullptr) {
+  if (!in.is_deep()) {
     for (int view = 0; view < (all_views ? in.views : 1); ++view) {
       ReadCodes(*in.image_kernels, in.images[view], 0, y - in.first, in.width,
                 rings.View(view).Row(y));

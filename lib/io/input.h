@@ -135,6 +135,7 @@ struct Input {
   LampLengths* runs = nullptr;
   int32_t excess_factor = 0;
 
+  bool is_deep() const { return kDeep && deep != nullptr; }
   void Light(int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) const {
     read_light(*this, view, x, y, count, rgb);
   }

@@ -3,6 +3,7 @@
 #ifndef STARFOCUS_LIB_IO_OUTPUT_H_
 #define STARFOCUS_LIB_IO_OUTPUT_H_
 
+#include "lib/base/config.h"
 #include "lib/base/jobs.h"
 #include "lib/io/image.h"
 
@@ -15,7 +16,7 @@ struct PictureRows {
   Plane<uint8_t> codes = {};
   Plane<uint16_t> deep = {}, alpha = {};
 
-  bool is_deep() const { return deep.data != nullptr; }
+  bool is_deep() const { return kDeep && deep.data != nullptr; }
 };
 
 // Picture of any format that receives the part `rect` of the whole picture.

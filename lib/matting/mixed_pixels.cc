@@ -150,7 +150,7 @@ Mixture FindMixture(const CentreView& centre, int32_t x, int32_t y, int side, in
   const BoundaryColours shown = ReadColours(centre, x, y, side, disparity, near, step);
   const Input* const captured = centre.input().captured;
   BoundaryColours bright;
-  if (centre.input().deep != nullptr && centre.layer() == 0 &&
+  if (centre.input().is_deep() && centre.layer() == 0 &&
       (captured != nullptr || Reaches(shown, kLightWhite)) &&
       ReadBright(centre.input(), x, y, side, disparity, near, step, &bright)) {
     return Unmix(bright, contrast_fade, shown);
@@ -272,7 +272,7 @@ class PixelSplitter {
     }
     if (nearest == INT16_MIN) return false;
     const Input& input = centre_.input();
-    const bool is_excess = input.is_excess && input.deep != nullptr;
+    const bool is_excess = input.is_excess && input.is_deep();
     int32_t share = RoundShift(most * simd::kSliceWhole, kShareBits);
     if (is_excess && most > 0) share = Max(share, 1);
     const bool is_rim = rims_ != nullptr && !rims_->RimAt(x, y).IsEmpty();

@@ -130,6 +130,34 @@ TEST_CASE("deep: codes of 8 bits in 16 bits give the picture of 8 bits") {
   }
 }
 
+TEST_CASE("deep: previews of codes of 8 bits in 16 bits are those of 8 bits") {
+  const test::Scene scene = test::LayeredScene(150, 141, 5, 8, 25);
+  const starfocus::Params params = test::Params(3, 1, STARFOCUS_MODE_BLOCK);
+  const auto preview = [&](test::Config config, const starfocus_light_field& field,
+                           const starfocus_image& out) {
+    config.previews = 1;
+    test::Engine engine(config);
+    test::PreparedMemory memory(config);
+    const starfocus_prepared* prepared = memory.Prepare(engine.get(), field);
+    REQUIRE(test::Preview(engine.get(), &params, prepared, 1, &out, nullptr) == STARFOCUS_OK);
+  };
+  test::Output expected(75, 71);
+  preview(test::ConfigFor(scene, 24), scene.Field(),
+          starfocus_image_rgb(expected.bytes.data(), expected.stride));
+  DeepField field(scene, STARFOCUS_FORMAT_RGB16, kExpand);
+  Words out(75, 71, STARFOCUS_FORMAT_RGB16);
+  preview(DeepConfig(scene), field.Field(), out.Image());
+  int worst = 0;
+  for (int y = 0; y < 71; ++y) {
+    for (int x = 0; x < 75; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        worst = std::max(worst, std::abs(out.At(x, y)[c] - 257 * expected.Pixel(x, y)[c]));
+      }
+    }
+  }
+  CHECK(worst <= 2 * 257);
+}
+
 TEST_CASE("deep: every level of a constant picture stays within 2^-14 of white") {
   test::Scene scene = test::LayeredScene(96, 70, 5, 8, 22);
   for (const int format : {STARFOCUS_FORMAT_RGB16, STARFOCUS_FORMAT_RGBA16}) {
