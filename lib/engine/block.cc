@@ -291,7 +291,8 @@ void BlurBlock(const BlockPass& p) {
                 });
 }
 
-void RefocusPass(const BlockPass& p) {
+// Not inlined, because it has two callers.
+[[gnu::noinline]] void RefocusPass(const BlockPass& p) {
   if (p.engine.lens.params.mode == STARFOCUS_MODE_BLUR) return BlurBlock(p);
   if (p.block.rendered.width > 0) {
     RefocusViews(p);

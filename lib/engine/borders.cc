@@ -81,7 +81,8 @@ Borders AddBorders(const FullConfig& config, double max_blur, bool deblocks) {
         ToWholeCells(reach + kUpsampleBorder[2]) + 5 * kCellSize + blur + LargestMove(config);
   }
   if (config.highlights > 1) {
-    borders.views = Max(borders.views, borders.highlights + LampRadius(LargestLamp(config.width)));
+    const int32_t farthest = Max(borders.highlights, borders.centre);
+    borders.views = Max(borders.views, farthest + LampRadius(LargestLamp(config.width)));
   }
   borders.streamed = borders.views + (ReadsImages(config) ? borders.views % 2 : 0);
   return borders;

@@ -17,65 +17,6 @@ size_t SamplesOf(const Range& columns) {
   return 3 * static_cast<size_t>(columns.last - columns.first);
 }
 
-// Splits row y of a picture of `width` pixels into even and odd pixels. Pixels outside the row
-// repeat the first or last pixel of the row. split(y, first, pairs, even, odd) splits pairs of
-// pixels inside the row, and sample(y, n) returns sample n of the row.
-template <class Split, class Sample>
-void SplitLine(const Split& split, const Sample& sample, int32_t y, int32_t width,
-               const Range& pairs, const ResampleScratch& phases) {
-  const int32_t first = Max(pairs.first, 0), last = Min(pairs.last, width / 2);
-  const int32_t left = first - pairs.first, right = last - pairs.first;
-  split(y, first, static_cast<size_t>(last - first), phases.even + 3 * left, phases.odd + 3 * left);
-  const auto repeat = [&](int32_t pixel, int32_t from, int32_t to) {
-    for (int32_t n = 3 * from; n < 3 * to; n += 3) {
-      for (int32_t c = 0; c < 3; ++c) {
-        phases.even[n + c] = phases.odd[n + c] = sample(y, 3 * pixel + c);
-      }
-    }
-  };
-  repeat(0, 0, left);
-  repeat(width - 1, right, pairs.last - pairs.first);
-}
-
-// A plane of width x height pixels, whose rows SplitLine splits with `split` and `sample`.
-template <class Split, class Sample>
-struct SplitPlane {
-  const Split& split;
-  const Sample& sample;
-  int32_t width, height;
-};
-
-// Subsamples a plane: first along all rows that `to` depends on, then along columns. Rows outside
-// the plane repeat its edge rows.
-template <class Split, class Sample>
-void Downsample(const Kernels& kernels, const SplitPlane<Split, Sample>& from,
-                const simd::HalfBand& filter, const Range& columns, const ResampleScratch& scratch,
-                const LayerPlane& to) {
-  const Range pairs = PairsOf(columns);
-  const size_t count = SamplesOf(columns);
-  int16_t* half = scratch.half;
-  for (int32_t y = 2 * to.rows.first - 3; y < 2 * to.rows.last + 2; ++y, half += count) {
-    SplitLine(from.split, from.sample, Clamp(y, 0, from.height - 1), from.width, pairs, scratch);
-    kernels.Halve(scratch.even + 6, scratch.odd + 6, filter, count, half);
-    CheckAll(ranges::kFilteredAlongX, half, count);
-  }
-  half = scratch.half + 3 * count;
-  for (int32_t y = to.rows.first; y < to.rows.last; ++y, half += 2 * count) {
-    int16_t* samples = to.samples.Row(y) + 3 * columns.first;
-    kernels.FilterHalfBand(half, static_cast<ptrdiff_t>(count), filter, count, 0, kLayerWhite,
-                           samples);
-    CheckAll(ranges::kLayerSample, samples, count);
-  }
-}
-
-// Returns the filter for layers of the centre view of `in`. Excess is that of small lamps, at which
-// the negative taps of kDownFilter would be clamped, and the lamps become brighter.
-const simd::HalfBand& FilterOf(const Input& in) {
-  static constexpr simd::HalfBand kTriangle = {1 << (simd::kTapBits - 1), 1 << (simd::kTapBits - 2),
-                                               0};
-  return in.is_excess ? kTriangle : kDownFilter;
-}
-
 // Returns the sample of a layer for light, rounded half up.
 int16_t SampleOf(int16_t light) {
   return static_cast<int16_t>((light + 1) >> (kLightBits - simd::kLayerBits));
@@ -98,6 +39,85 @@ void SplitLight(const Input& picture, int32_t y, int32_t first, int32_t pairs, i
   }
 }
 
+// Rows to subsample: of a layer or, if `layer` is null, of the centre view of `picture`.
+struct SourceRows {
+  const Kernels& kernels;
+  const Input* picture;
+  const LayerPlane* layer;
+  int32_t width, height;
+
+  // Splits pairs of pixels inside row y, from pair `first` on.
+  void Split(int32_t y, int32_t first, size_t pairs, int16_t* even, int16_t* odd) const {
+    if (layer != nullptr) {
+      kernels.DeinterleavePhases(layer->samples.Row(y) + 6 * first, pairs, even, odd);
+    } else if (picture->reads_codes) {
+      kernels.WidenPhases(picture->centre.Row(y) + 6 * first, pairs, *picture->transfer, even, odd);
+    } else {
+      SplitLight(*picture, y, first, static_cast<int32_t>(pairs), even, odd);
+    }
+  }
+  // Reads the samples of a pixel of row y.
+  void Read(int32_t y, int32_t x, int16_t* rgb) const {
+    int16_t light[3 + simd::kPadding / sizeof(int16_t)];
+    const bool reads_light = layer == nullptr && !picture->reads_codes;
+    if (reads_light) picture->Light(0, x, y, 1, light);
+    for (int32_t c = 0; c < 3; ++c) {
+      rgb[c] = layer != nullptr ? layer->samples.Row(y)[3 * x + c]
+               : reads_light    ? SampleOf(light[c])
+                                : picture->transfer->samples[picture->centre.Row(y)[3 * x + c]];
+    }
+  }
+};
+
+// Splits row y of a plane into even and odd pixels. Pixels outside the row repeat the first or last
+// pixel of the row.
+void SplitLine(const SourceRows& rows, int32_t y, const Range& pairs,
+               const ResampleScratch& phases) {
+  const int32_t first = Max(pairs.first, 0), last = Min(pairs.last, rows.width / 2);
+  const int32_t left = first - pairs.first, right = last - pairs.first;
+  rows.Split(y, first, static_cast<size_t>(last - first), phases.even + 3 * left,
+             phases.odd + 3 * left);
+  const auto repeat = [&](int32_t pixel, int32_t from, int32_t to) {
+    int16_t rgb[3];
+    if (from < to) rows.Read(y, pixel, rgb);
+    for (int32_t n = 3 * from; n < 3 * to; n += 3) {
+      for (int32_t c = 0; c < 3; ++c) phases.even[n + c] = phases.odd[n + c] = rgb[c];
+    }
+  };
+  repeat(0, 0, left);
+  repeat(rows.width - 1, right, pairs.last - pairs.first);
+}
+
+// Subsamples a plane: first along all rows that `to` depends on, then along columns. Rows outside
+// the plane repeat its edge rows.
+void Downsample(const SourceRows& from, const simd::HalfBand& filter, const Range& columns,
+                const ResampleScratch& scratch, const LayerPlane& to) {
+  const Kernels& kernels = from.kernels;
+  const Range pairs = PairsOf(columns);
+  const size_t count = SamplesOf(columns);
+  int16_t* half = scratch.half;
+  for (int32_t y = 2 * to.rows.first - 3; y < 2 * to.rows.last + 2; ++y, half += count) {
+    SplitLine(from, Clamp(y, 0, from.height - 1), pairs, scratch);
+    kernels.Halve(scratch.even + 6, scratch.odd + 6, filter, count, half);
+    CheckAll(ranges::kFilteredAlongX, half, count);
+  }
+  half = scratch.half + 3 * count;
+  for (int32_t y = to.rows.first; y < to.rows.last; ++y, half += 2 * count) {
+    int16_t* samples = to.samples.Row(y) + 3 * columns.first;
+    kernels.FilterHalfBand(half, static_cast<ptrdiff_t>(count), filter, count, 0, kLayerWhite,
+                           samples);
+    CheckAll(ranges::kLayerSample, samples, count);
+  }
+}
+
+// Returns the filter for layers of the centre view of `in`. Excess is that of small lamps, at which
+// the negative taps of kDownFilter would be clamped, and the lamps become brighter.
+const simd::HalfBand& FilterOf(const Input& in) {
+  static constexpr simd::HalfBand kTriangle = {1 << (simd::kTapBits - 1), 1 << (simd::kTapBits - 2),
+                                               0};
+  return in.is_excess ? kTriangle : kDownFilter;
+}
+
 // Writes `width` pixels alternately from `even` and `odd`. Four samples are copied per pixel, which
 // takes one move instead of two. The next pixel overwrites the fourth sample.
 void Interleave(const int16_t* even, const int16_t* odd, int32_t width, int16_t* out) {
@@ -112,42 +132,14 @@ void Interleave(const int16_t* even, const int16_t* odd, int32_t width, int16_t*
 
 void DownsampleLayer(const Kernels& kernels, const LayerPlane& from, const simd::HalfBand& filter,
                      const Range& columns, const ResampleScratch& scratch, const LayerPlane& to) {
-  const auto split = [&](int32_t y, int32_t first, size_t pairs, int16_t* even, int16_t* odd) {
-    kernels.DeinterleavePhases(from.samples.Row(y) + 6 * first, pairs, even, odd);
-  };
-  const auto sample = [&](int32_t y, int32_t n) { return from.samples.Row(y)[n]; };
-  const SplitPlane<decltype(split), decltype(sample)> plane = {split, sample, from.width,
-                                                               from.height};
-  Downsample(kernels, plane, filter, columns, scratch, to);
+  Downsample({kernels, nullptr, &from, from.width, from.height}, filter, columns, scratch, to);
 }
 
 void DownsamplePicture(const Kernels& kernels, const Input& picture, int32_t layer,
                        const Range& columns, const ResampleScratch& scratch, const LayerPlane& to) {
-  if (layer == 1 && picture.reads_codes) {
-    const auto split = [&](int32_t y, int32_t first, size_t pairs, int16_t* even, int16_t* odd) {
-      kernels.WidenPhases(picture.centre.Row(y) + 6 * first, pairs, *picture.transfer, even, odd);
-    };
-    const auto sample = [&](int32_t y, int32_t n) {
-      return picture.transfer->samples[picture.centre.Row(y)[n]];
-    };
-    const SplitPlane<decltype(split), decltype(sample)> plane = {split, sample, picture.width,
-                                                                 picture.height};
-    Downsample(kernels, plane, FilterOf(picture), columns, scratch, to);
-    return;
-  }
   if (layer == 1) {
-    const auto split = [&](int32_t y, int32_t first, size_t pairs, int16_t* even, int16_t* odd) {
-      SplitLight(picture, y, first, static_cast<int32_t>(pairs), even, odd);
-    };
-    const auto sample = [&](int32_t y, int32_t n) {
-      int16_t rgb[3 + simd::kPadding / sizeof(int16_t)];
-      picture.Light(0, n / 3, y, 1, rgb);
-      return SampleOf(rgb[n % 3]);
-    };
-    const SplitPlane<decltype(split), decltype(sample)> plane = {split, sample, picture.width,
-                                                                 picture.height};
-    Downsample(kernels, plane, FilterOf(picture), columns, scratch, to);
-    return;
+    const SourceRows rows = {kernels, &picture, nullptr, picture.width, picture.height};
+    return Downsample(rows, FilterOf(picture), columns, scratch, to);
   }
   const Range pairs = PairsOf(columns);
   LayerPlane one;  // the part of layer 1 on which the columns of layer 2 depend

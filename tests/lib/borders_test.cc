@@ -258,6 +258,9 @@ struct Sum {
 // - Side views: hidden pixels at the edge of the border are hardly visible, especially at layers 1
 //   and 2. The disparities of hidden pixels seldom reach the largest disparity of the
 //   configuration.
+// - Highlights: distant ones only decide the size of a lamp at the edge of what a block reads,
+// which
+//   hardly changes a sum. They do not decide how superblocks are split.
 const Sum kSums[] = {
     {"boundary pixels", 1, STARFOCUS_RENDERER_SLICES, 0, 7, 1, 1, &Borders::centre, &Kept::map,
      starfocus::kRimBorder - 1},
@@ -271,9 +274,9 @@ const Sum kSums[] = {
      &Kept::sides, 8},
     {"views, layer 2", 5, STARFOCUS_RENDERER_SLICES, 2, 11, 0.25, 0.5, &Borders::views,
      &Kept::sides, 20},
-    {"highlights", 1, STARFOCUS_RENDERER_SLICES, 2, 4, 1, 1, &Borders::views, &Kept::centre, 0, 8},
+    {"highlights", 1, STARFOCUS_RENDERER_SLICES, 2, 4, 1, 1, &Borders::views, &Kept::centre, 96, 8},
     {"highlights of views", 5, STARFOCUS_RENDERER_LINE_SCAN, 2, 4, 1, 1, &Borders::views,
-     &Kept::sides, 0, 8},
+     &Kept::sides, 96, 8},
 };
 
 TEST_CASE("borders: if a border is one pixel too narrow, the bytes of superblocks change") {
