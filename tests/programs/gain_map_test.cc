@@ -113,7 +113,8 @@ TEST_CASE("gain maps: invalid XMP is rejected with the name of the property") {
       {"hdrgm:GainMapMax=\"1\" hdrgm:BaseRenditionIsHDR=\"True\"", "found a brighter one"},
   };
   for (const auto& [attributes, text] : kCases) {
-    CAPTURE(attributes);
+    const std::string shown(attributes);
+    CAPTURE(shown);
     GainMap map;
     CHECK(Contains(ReadGainMapXmp(Xmp(attributes), &map), text));
   }
@@ -256,7 +257,8 @@ TEST_CASE("gain maps: JPEG files with each kind of metadata give their map") {
                 {GainMapXmp() + broken, "XMP", 2.5},
                 {apple, "Apple", 1.8}};
   for (const auto& [segments, format, most] : kCases) {
-    CAPTURE(format);
+    const std::string shown(format);
+    CAPTURE(shown);
     const DepthPhoto photo = ValueOf(Read(WithMap(segments)));
     CHECK(photo.gain_map.format == format);
     CHECK(photo.gain_map.max[2] == doctest::Approx(most));

@@ -159,9 +159,9 @@ TEST_CASE("Ultra HDR: a file gives the light from which it was made") {
     int step, channels;
     double stops, psnr;
   } kCases[] = {{2, 1, 0.25, 47}, {4, 1, 0.25, 47}, {2, 3, 0.15, 56}, {4, 3, 0.15, 56}};
-  for (const auto& [step, channels, stops, psnr] : kCases) {
-    CAPTURE(step);
-    CAPTURE(channels);
+  for (const auto& row : kCases) {
+    const auto [step, channels, stops, psnr] = row;
+    CAPTURE(&row - kCases);
     const GainMap map = ComputeGainMap(base, light, step, channels);
     const Bytes file = ValueOf(EncodeUltraHdr("out.jpg", base, map, 100, {}));
     const DepthPhoto photo = ValueOf(Decode(file));
