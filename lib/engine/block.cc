@@ -34,7 +34,8 @@ uint8_t* At(const Plane<uint8_t>& out, const Rect& rect, int32_t row) {
 }
 
 // Stores `count` values of the light of a deep picture, from pixel (x, y) on: sums or samples with
-// `bits` fractional bits more than light. Light replaces what is stored, excess is added to it.
+// `bits` fractional bits more than light. Light replaces the stored values, and excess is added to
+// them.
 template <class T>
 void StoreDeep(const BlockPass& p, const T* values, int bits, int32_t count, int32_t x, int32_t y) {
   // Samples of layers have one bit less than light, and excess is multiplied by up to

@@ -133,10 +133,10 @@ struct StripeState {
   // finished. Null without streaming, because a failed call is not resumed and the last rows can
   // stay in `out`.
   PictureRows last_rows;
-  int32_t excess_shift = 0;  // Of deep pictures: Input::excess_shift of the blocks.
+  int32_t excess_shift = 0;  // Input::excess_shift of the blocks of a deep picture.
 };
 
-// What a block is refocused for. Light up to white comes first. Excess, which is the light beyond
+// Passes over a block. Light up to white comes first. Excess, which is the light beyond
 // white, and alpha are refocused in the same way, where there are any.
 enum Pass { kLightPass, kExcessPass, kAlphaPass, kPassCount };
 

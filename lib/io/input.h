@@ -104,7 +104,7 @@ struct Input {
   Plane<const uint16_t> deep_rows[STARFOCUS_MAX_VIEWS], deep_alpha[STARFOCUS_MAX_VIEWS];
   int32_t deep_transfer = 0;  // starfocus_transfer of the 16-bit codes of deep pictures.
   bool has_alpha = false;     // True: some view has alpha that is refocused.
-  int32_t excess_shift = 0;   // Of ReadDeepExcess: the excess is multiplied by 2^excess_shift.
+  int32_t excess_shift = 0;   // ReadDeepExcess multiplies by 2^excess_shift.
 
   // Rows of the views. Row 0 of `images` is row `first` of the picture. If `centre` is a ring,
   // packed views are rings with the same number of rows.
