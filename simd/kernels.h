@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables of SIMD kernels. A table holds one pointer per kernel of a list, for one SIMD target.
-// There are four tables, in units of their own, and a program links only the tables that it uses.
+// There are five tables, in units of their own, and a program links only the tables that it uses.
 // `simd/table-inl.h` compiles a table for every target of `simd/targets.h`.
 //
 // Each kernel family x has two files. `x.h` contains the contracts, and beside each contract the
@@ -28,6 +28,7 @@
 #include "simd/resample.h"
 #include "simd/samples.h"
 #include "simd/slices.h"
+#include "simd/words.h"
 
 // STARFOCUS_MEMBER declares one member of a table. STARFOCUS_ENTRY is one entry of a table's
 // initialiser and refers to the kernel of this name in scope.
@@ -136,12 +137,20 @@
   KERNEL(FindRuns)                          \
   KERNEL(Blend)
 
+// List of the kernels that convert YUV of more than 8 bits, which a program without
+// STARFOCUS_DEEP does not link.
+#define STARFOCUS_WORD_KERNELS(KERNEL) \
+  KERNEL(YuvWordsToRgb)                \
+  KERNEL(RgbToLumaWords)               \
+  KERNEL(RgbToChromaWords)
+
 namespace starfocus::simd {
 
 STARFOCUS_DECLARE_TABLE(Kernels, STARFOCUS_KERNELS)
 STARFOCUS_DECLARE_TABLE(DepthKernels, STARFOCUS_DEPTH_KERNELS)
 STARFOCUS_DECLARE_TABLE(ImageKernels, STARFOCUS_IMAGE_KERNELS)
 STARFOCUS_DECLARE_TABLE(LineScanKernels, STARFOCUS_LINE_SCAN_KERNELS)
+STARFOCUS_DECLARE_TABLE(WordKernels, STARFOCUS_WORD_KERNELS)
 
 // Returns the table of the target with this name, or null if there is no such target. The
 // restrictions of KernelsOfTarget apply to FindKernels as well.

@@ -26,8 +26,8 @@ void CheckCount(const EngineState& engine, int32_t rows, const Allowed& allowed,
 // two rows require pairs of rows.
 void CheckPairs(const FullConfig& config, bool is_yuv, int32_t first, int32_t rows,
                 Checker* check) {
-  check->Need(!is_yuv || (first % 2 == 0 && (rows % 2 == 0 || first + rows == config.height)),
-              STARFOCUS_ERROR_RANGE, {"rows", double(rows)},
+  const bool are_pairs = first % 2 == 0 && (rows % 2 == 0 || first + rows == config.height);
+  check->Need(!is_yuv || rows == 0 || are_pairs, STARFOCUS_ERROR_RANGE, {"rows", double(rows)},
               {"even, except at the end of the picture"});
 }
 

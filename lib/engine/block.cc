@@ -56,7 +56,12 @@ void StoreDeep(const BlockPass& p, const T* values, int bits, int32_t count, int
   uint16_t* const rgb = p.out.deep.Row(y) + 3 * static_cast<ptrdiff_t>(x);
   if (p.pass == kLightPass) {
     for (int32_t n = 0; n < 3 * count; ++n) {
-      rgb[n] = static_cast<uint16_t>(Min(static_cast<int32_t>(light(n, 0)), kLightWhite));
+      if constexpr (sizeof(T) == 2) {
+        rgb[n] = static_cast<uint16_t>(2 * values[n]);  // samples of layers, at most white
+      } else {
+        const auto sum = static_cast<int32_t>((values[n] + (T{1} << bits >> 1)) >> bits);
+        rgb[n] = static_cast<uint16_t>(Min(sum, kLightWhite));
+      }
     }
     return;
   }

@@ -2,6 +2,7 @@
 #include "lib/io/deep.h"
 
 #include <cstring>
+#include <type_traits>
 
 #include "lib/base/curves.h"
 
@@ -50,48 +51,79 @@ void FillEncode(int32_t transfer, uint16_t* encode) {
   }
 }
 
-uint16_t Word(const uint8_t* bytes) {
-  uint16_t word;
-  std::memcpy(&word, bytes, sizeof word);
-  return word;
-}
-void SetWord(uint8_t* bytes, int32_t word) {
-  const auto value = static_cast<uint16_t>(word);
-  std::memcpy(bytes, &value, sizeof value);
+// Returns the words of an image from pixel (x, y) on.
+template <class Byte>
+auto* WordsOf(const ImagePlanes<Byte>& image, int32_t x, int32_t y) {
+  using Word = std::conditional_t<std::is_const_v<Byte>, const uint16_t, uint16_t>;
+  return reinterpret_cast<Word*>(image.planes[0] + static_cast<size_t>(y) * image.strides[0]) +
+         static_cast<size_t>(x) * (image.step / 2);
 }
 
-constexpr int32_t ClampCode(int32_t code) { return Clamp(code, 0, 65535); }
+constexpr bool IsHalf(int32_t format) {
+  return format == STARFOCUS_FORMAT_RGB_HALF || format == STARFOCUS_FORMAT_RGBA_HALF;
+}
+// Returns the word of alpha 1.
+constexpr uint16_t OpaqueWord(int32_t format) { return IsHalf(format) ? 0x3C00 : 65535; }
 
-// Scale of 16-bit YUV words to codes, 16 fractional bits. White is 235 * 256 or 1023 * 64.
-constexpr int32_t ToCodes(bool full) { return full ? 65599 : 65792; }
-constexpr int32_t FromCodes(bool full) { return full ? 65473 : 65281; }
-int32_t Scaled(int32_t value, int32_t scale) {
-  return static_cast<int32_t>((int64_t{value} * scale + (1 << 15)) >> 16);
+// Four words in a number, of any order of bytes. The last is that of alpha.
+uint64_t FourWords(const uint16_t* words) {
+  uint64_t four;
+  std::memcpy(&four, words, sizeof four);
+  return four;
+}
+uint64_t Lanes(uint16_t colours, uint16_t alpha) {
+  const uint16_t words[4] = {colours, colours, colours, alpha};
+  return FourWords(words);
 }
 
-const uint8_t* ChromaOf(const ImageSource& image, int32_t x, int32_t y) {
-  const int32_t row = image.format == STARFOCUS_FORMAT_P010 ? y / 2 : y;
-  return image.planes[1] + static_cast<size_t>(row) * image.strides[1] +
-         4 * static_cast<size_t>(x / 2);
+// The sign bits of four words. NotAbove sets that of a word if a <= b, for words without sign, and
+// clears it if b has no sign, but a has one.
+constexpr uint64_t kSigns = 0x8000800080008000;
+constexpr uint64_t NotAbove(uint64_t a, uint64_t b) { return ((b | kSigns) - (a & ~kSigns)) & ~a; }
+
+// Returns the AND of of(four words) over `count` >= 4 words.
+template <class Of>
+uint64_t AndOfFours(const uint16_t* words, size_t count, const Of& of) {
+  uint64_t all = of(FourWords(words + count - 4));
+  for (size_t n = 0; n + 4 <= count; n += 4) all &= of(FourWords(words + n));
+  return all;
+}
+
+// Returns true if `count` words, `step` apart, equal `word`.
+bool AreAll(const uint16_t* words, int32_t count, size_t step, uint16_t word) {
+  uint32_t differences = 0;
+  for (size_t n = 0; n < static_cast<size_t>(count); ++n) differences |= words[n * step] ^ word;
+  return differences == 0;
+}
+
+// Looks the colours of `count` pixels up in a table. Pixels are `step` and `to_step` words apart.
+void LookUp(const uint16_t* table, const uint16_t* from, size_t step, int32_t count, uint16_t* to,
+            size_t to_step) {
+  for (int32_t n = 0; n < count; ++n, from += step, to += to_step) {
+    const uint16_t r = table[from[0]], g = table[from[1]], b = table[from[2]];
+    to[0] = r;
+    to[1] = g;
+    to[2] = b;
+  }
+}
+
+// Returns the chroma samples of pixel (x, y).
+template <class Byte>
+auto* ChromaOf(const ImagePlanes<Byte>& image, int32_t x, int32_t y) {
+  ImagePlanes<Byte> chroma = image;
+  chroma.planes[0] = image.planes[1];
+  chroma.strides[0] = image.strides[1];
+  chroma.step = 2;
+  return WordsOf(chroma, x / 2 * 2, image.format == STARFOCUS_FORMAT_P010 ? y / 2 : y);
 }
 
 void ReadYuvCodes(const ImageSource& image, int32_t x, int32_t y, int32_t count, uint16_t* rgb) {
-  const simd::YuvMatrix& m = image.Matrix();
-  const uint8_t* luma = image.planes[0] + static_cast<size_t>(y) * image.strides[0] + 2 * x;
-  const int32_t scale = ToCodes(image.matrix % 2 != 0);
-  int32_t chroma[3] = {};  // what the chroma of two pixels adds to R, G and B; 13 fractional bits
-  for (int32_t n = 0; n < count; ++n, luma += 2, rgb += 3) {
-    if (n == 0 || (x + n) % 2 == 0) {
-      const uint8_t* const at = ChromaOf(image, x + n, y);
-      const int32_t u = Word(at) - 32768, v = Word(at + 2) - 32768;
-      chroma[0] = v * m.rv + (1 << 12);
-      chroma[1] = u * m.gu + v * m.gv + (1 << 12);
-      chroma[2] = u * m.bu + (1 << 12);
-    }
-    const int32_t l = ((Word(luma) - 256 * m.black) * m.y) >> 1;
-    for (int c = 0; c < 3; ++c) {
-      rgb[c] = static_cast<uint16_t>(ClampCode(Scaled((l + chroma[c]) >> 13, scale)));
-    }
+  const simd::WordKernels& kernels = simd::BestWordKernels();
+  for (int32_t end = x + count, some; x < end; x += some, rgb += 3 * some) {
+    // If x is odd, convert one pixel first to align with the chroma samples.
+    some = x % 2 != 0 ? 1 : end - x;
+    kernels.YuvWordsToRgb(WordsOf(image, x, y), ChromaOf(image, x, y), static_cast<size_t>(some),
+                          image.Matrix(), rgb);
   }
 }
 
@@ -109,31 +141,21 @@ void Premultiply(int32_t alpha, uint16_t* rgb) {
   }
 }
 
+// Reads pixels of R, G and B of 16 bits or half floats, whose `alpha` is opaque before.
 void ReadWords(const DeepTables& tables, const ImageSource& image, int32_t x, int32_t y,
                int32_t count, uint16_t* rgb, uint16_t* alpha) {
-  const uint8_t* from = image.Pixel(x, y);
-  for (int32_t n = 0; n < count; ++n, from += image.step, rgb += 3) {
-    for (int c = 0; c < 3; ++c) rgb[c] = tables.decode[Word(from + 2 * c)];
-    if (!image.refocuses_alpha) continue;
-    const uint16_t code = Word(from + 6);
-    const uint16_t a = code == 65535 ? uint16_t{kLightWhite} : AlphaOfCode(code);
-    if (a != kLightWhite) Premultiply(a, rgb);
+  const bool is_half = IsHalf(image.format);
+  const uint16_t* const from = WordsOf(image, x, y);
+  const uint16_t* const decode = is_half ? tables.decode_half : tables.decode;
+  const size_t step = image.step / 2, pixels = static_cast<size_t>(count);
+  LookUp(decode, from, step, count, rgb, 3);
+  if (!image.refocuses_alpha || AreAll(from + 3, count, step, OpaqueWord(image.format))) return;
+  for (size_t n = 0; n < pixels; ++n) {
+    const uint16_t word = from[n * step + 3];
+    const uint16_t a =
+        is_half ? static_cast<uint16_t>(Min(decode[word], kLightWhite)) : AlphaOfCode(word);
+    if (!is_half) Premultiply(a, rgb + 3 * n);
     if (alpha != nullptr) alpha[n] = a;
-  }
-}
-
-void ReadHalves(const DeepTables& tables, const ImageSource& image, int32_t x, int32_t y,
-                int32_t count, uint16_t* rgb, uint16_t* alpha) {
-  const uint8_t* from = image.Pixel(x, y);
-  const auto deep = [&](const uint8_t* at) {
-    const uint16_t half = Word(at);
-    return half < 0x8000 ? tables.decode_half[half] : uint16_t{0};
-  };
-  for (int32_t n = 0; n < count; ++n, from += image.step, rgb += 3) {
-    for (int c = 0; c < 3; ++c) rgb[c] = deep(from + 2 * c);
-    if (!image.refocuses_alpha || alpha == nullptr) continue;
-    const uint16_t a = deep(from + 6);
-    alpha[n] = a < kLightWhite ? a : kLightWhite;
   }
 }
 
@@ -159,45 +181,6 @@ uint8_t Dithered(uint32_t code, uint32_t x, uint32_t y) {
   return static_cast<uint8_t>(whole + (rest > 4 * rank + 2 ? 1 : 0));
 }
 
-void WriteWords(const DeepTables& tables, const DeepRow& row, int32_t width, uint8_t* to,
-                const ImageTarget& image) {
-  const uint16_t* rgb = row.rgb;
-  for (int32_t n = 0; n < width; ++n, to += image.step, rgb += 3) {
-    const uint16_t alpha = row.alpha == nullptr ? uint16_t{kLightWhite} : row.alpha[n];
-    uint16_t straight[3];
-    const bool divides = image.refocuses_alpha && alpha != kLightWhite;
-    if (divides) Unmultiply(rgb, alpha, straight);
-    for (int c = 0; c < 3; ++c) SetWord(to + 2 * c, tables.encode[(divides ? straight : rgb)[c]]);
-    if (image.refocuses_alpha) SetWord(to + 6, CodeOfAlpha(alpha));
-  }
-}
-
-void WriteHalves(const DeepTables& tables, const DeepRow& row, int32_t width, uint8_t* to,
-                 const ImageTarget& image) {
-  const uint16_t* rgb = row.rgb;
-  for (int32_t n = 0; n < width; ++n, to += image.step, rgb += 3) {
-    for (int c = 0; c < 3; ++c) SetWord(to + 2 * c, tables.encode_half[rgb[c]]);
-    const uint16_t alpha = row.alpha == nullptr ? uint16_t{kLightWhite} : row.alpha[n];
-    if (image.refocuses_alpha) SetWord(to + 6, tables.encode_half[alpha]);
-  }
-}
-
-// Returns the word of a 10-bit sample, which is rounded from 16 bits and clamped.
-constexpr int32_t TenBits(int32_t word) { return Clamp((word + 32) >> 6, 0, 1023) << 6; }
-
-void WriteLuma(const DeepTables& tables, const uint16_t* rgb, int32_t width, uint8_t* to,
-               const ImageTarget& image) {
-  const simd::YuvMatrix& m = image.Matrix();
-  const int32_t scale = FromCodes(image.matrix % 2 != 0);
-  for (int32_t n = 0; n < width; ++n, rgb += 3) {
-    // The weights sum to at most 2^15.
-    const int32_t luma = (tables.encode[rgb[0]] * m.yr + tables.encode[rgb[1]] * m.yg +
-                          tables.encode[rgb[2]] * m.yb + (1 << 14)) >>
-                         15;
-    SetWord(to + 2 * n, TenBits(256 * m.black + Scaled(luma, scale)));
-  }
-}
-
 }  // namespace
 
 void FillDeepTables(int32_t transfer, DeepTables* tables) {
@@ -205,57 +188,84 @@ void FillDeepTables(int32_t transfer, DeepTables* tables) {
     const uint32_t light = LightOfCode(transfer, code);
     tables->decode[code] = DeepOfLight((light + (1 << kCurveBits >> 1)) >> kCurveBits);
     tables->encode_half[code] = HalfOfLight(LightOfDeep(static_cast<int32_t>(code)));
-    if (code < 0x8000) tables->decode_half[code] = DeepOfLight(LightOfHalf(code));
+    tables->decode_half[code] = code < 0x8000 ? DeepOfLight(LightOfHalf(code)) : uint16_t{0};
   }
   FillEncode(transfer, tables->encode);
+}
+
+bool IsPlain(const DeepTables& tables, const ImageSource& image, int32_t x, int32_t y,
+             int32_t count) {
+  const bool is_half = IsHalf(image.format);
+  if (!is_half && tables.encode[kLightWhite] == 65535 && !image.refocuses_alpha) return true;
+  const bool may_exceed = !is_half && tables.encode[kLightWhite] != 65535;
+  if (!IsDeep(image.format) || image.is_yuv || may_exceed) return false;
+  const uint64_t white = Lanes(0x3C00, 0x3C00), alpha = Lanes(0, OpaqueWord(image.format));
+  const uint16_t* const from = WordsOf(image, x, y);
+  const size_t step = image.step / 2, words = static_cast<size_t>(count) * step;
+  if (step != (image.refocuses_alpha ? 4 : 3) || words < 4) return false;
+  if (!is_half) {
+    return AndOfFours(from, words, [&](uint64_t four) { return four | ~alpha; }) == ~uint64_t{0};
+  }
+  const auto is_dark = [&](uint64_t four) { return NotAbove(four, white); };
+  const auto is_opaque = [&](uint64_t four) { return is_dark(four) & NotAbove(alpha, four); };
+  return kSigns == (kSigns & (image.refocuses_alpha ? AndOfFours(from, words, is_opaque)
+                                                    : AndOfFours(from, words, is_dark)));
 }
 
 void ReadDeep(const DeepTables& tables, const ImageSource& image, int32_t x, int32_t y,
               int32_t count, uint16_t* rgb, uint16_t* alpha) {
   for (int32_t n = 0; alpha != nullptr && n < count; ++n) alpha[n] = kLightWhite;
   const int32_t format = image.format;
-  if (format == STARFOCUS_FORMAT_RGB16 || format == STARFOCUS_FORMAT_RGBA16) {
+  if (IsDeep(format) && !image.is_yuv) {
     return ReadWords(tables, image, x, y, count, rgb, alpha);
-  }
-  if (format == STARFOCUS_FORMAT_RGB_HALF || format == STARFOCUS_FORMAT_RGBA_HALF) {
-    return ReadHalves(tables, image, x, y, count, rgb, alpha);
   }
   const auto read = IsDeep(format) ? ReadYuvCodes : ReadByteCodes;
   for (int32_t n = 0; n < count; n += kPiece) {
     uint16_t codes[3 * kPiece];
     const int32_t some = Min(kPiece, count - n);
     read(image, x + n, y, some, codes);
-    for (int32_t k = 0; k < 3 * some; ++k) rgb[3 * n + k] = tables.decode[codes[k]];
+    LookUp(tables.decode, codes, 3, some, rgb + 3 * n, 3);
   }
 }
 
 void WriteDeep(const DeepTables& tables, const DeepRow& row, int32_t width, int32_t y,
                const ImageTarget& image) {
-  uint8_t* const to = image.planes[0] + static_cast<size_t>(y) * image.strides[0];
-  if (image.is_yuv) return WriteLuma(tables, row.rgb, width, to, image);
-  const bool is_half = image.format >= STARFOCUS_FORMAT_RGB_HALF;
-  (is_half ? WriteHalves : WriteWords)(tables, row, width, to, image);
+  const bool is_half = IsHalf(image.format);
+  const uint16_t* const encode = is_half ? tables.encode_half : tables.encode;
+  const size_t step = image.step / 2, pixels = static_cast<size_t>(width);
+  uint16_t* const to = WordsOf(image, 0, y);
+  if (!image.refocuses_alpha) return LookUp(encode, row.rgb, 3, width, to, step);
+  if (row.alpha == nullptr || AreAll(row.alpha, width, 1, kLightWhite)) {
+    LookUp(encode, row.rgb, 3, width, to, step);
+    const uint16_t opaque = OpaqueWord(image.format);
+    for (size_t n = 0; n < pixels; ++n) to[n * step + 3] = opaque;
+    return;
+  }
+  for (size_t n = 0; n < pixels; ++n) {
+    uint16_t straight[3];
+    if (!is_half) Unmultiply(row.rgb + 3 * n, row.alpha[n], straight);
+    LookUp(encode, is_half ? row.rgb + 3 * n : straight, 3, 1, to + n * step, 3);
+    to[n * step + 3] = is_half ? encode[row.alpha[n]] : CodeOfAlpha(row.alpha[n]);
+  }
 }
 
-void WriteDeepChroma(const DeepTables& tables, const uint16_t* upper, const uint16_t* lower,
-                     int32_t width, int32_t y, const ImageTarget& image) {
-  const simd::YuvMatrix& m = image.Matrix();
-  const int32_t scale = FromCodes(image.matrix % 2 != 0);
-  const int32_t row = image.format == STARFOCUS_FORMAT_P010 ? y / 2 : y;
-  uint8_t* to = image.planes[1] + static_cast<size_t>(row) * image.strides[1];
-  for (int32_t x = 0; x < width; x += 2, to += 4) {
-    const size_t left = 3 * static_cast<size_t>(x), right = x + 1 < width ? left + 3 : left;
-    int64_t sums[3];
-    for (size_t c = 0; c < 3; ++c) {
-      sums[c] = int64_t{tables.encode[upper[left + c]]} + tables.encode[upper[right + c]] +
-                tables.encode[lower[left + c]] + tables.encode[lower[right + c]];
+void WriteDeepYuv(const DeepTables& tables, const uint16_t* const rows[2], const Range& luma,
+                  int32_t width, int32_t y, const ImageTarget& image) {
+  const simd::WordKernels& kernels = simd::BestWordKernels();
+  for (int32_t x = 0; x < width; x += kPiece) {
+    uint16_t codes[2][3 * kPiece];
+    const int32_t some = Min(kPiece, width - x);
+    const auto count = static_cast<size_t>(some);
+    for (int k = 0; k < 2; ++k) {
+      if (rows[k] == nullptr || (k == 1 && rows[1] == rows[0])) continue;
+      LookUp(tables.encode, rows[k] + 3 * x, 3, some, codes[k], 3);
     }
-    const auto word = [&](int32_t r, int32_t g, int32_t b) {
-      const int64_t sum = sums[0] * r + sums[1] * g + sums[2] * b;
-      return TenBits(32768 + Scaled(static_cast<int32_t>((sum + (1 << 16)) >> 17), scale));
-    };
-    SetWord(to, word(m.ur, m.ug, m.ub));
-    SetWord(to + 2, word(m.vr, m.vg, m.vb));
+    for (int32_t at = luma.first; at < luma.last; ++at) {
+      kernels.RgbToLumaWords(codes[at - y], count, image.Matrix(), WordsOf(image, x, at));
+    }
+    if (rows[1] == nullptr) continue;
+    kernels.RgbToChromaWords(codes[0], codes[rows[1] != rows[0] ? 1 : 0], count, image.Matrix(),
+                             ChromaOf(image, x, y));
   }
 }
 

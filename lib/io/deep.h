@@ -43,17 +43,16 @@ inline bool IsBeyondWhite(const uint16_t* rgb) {
 struct DeepTables {
   uint16_t decode[65536];       // Deep codes of 16-bit codes.
   uint16_t encode[65536];       // 16-bit codes of deep codes.
-  uint16_t decode_half[32768];  // Deep codes of half floats that are not negative; 0 for NaN.
+  uint16_t decode_half[65536];  // Deep codes of half floats; 0 for negative light and NaN.
   uint16_t encode_half[65536];  // Half floats of deep codes.
 };
 
 void FillDeepTables(int32_t transfer, DeepTables* tables);
 
-// Returns true if pictures of a format may contain light beyond white.
-constexpr bool MayExceedWhite(int32_t format, int32_t transfer) {
-  return format == STARFOCUS_FORMAT_RGB_HALF || format == STARFOCUS_FORMAT_RGBA_HALF ||
-         transfer == STARFOCUS_TRANSFER_PQ || transfer == STARFOCUS_TRANSFER_HLG;
-}
+// Returns true if `count` pixels of an image, starting at (x, y), are known to be opaque and at
+// most white.
+bool IsPlain(const DeepTables& tables, const ImageSource& image, int32_t x, int32_t y,
+             int32_t count);
 
 // Reads `count` pixels of an image of any format, starting at (x, y). Sets alpha[n] to the alpha of
 // pixel n, unless `alpha` is null. Negative half floats count as 0.
@@ -65,14 +64,14 @@ struct DeepRow {
   const uint16_t *rgb, *alpha;
 };
 
-// Writes the first `width` pixels of row y of an image of a deep format, except for chroma.
+// Writes the first `width` pixels of row y of an image of a deep RGB format.
 void WriteDeep(const DeepTables& tables, const DeepRow& row, int32_t width, int32_t y,
                const ImageTarget& image);
 
-// Writes the chroma of rows y and y + 1, as WriteChroma (image.h). For STARFOCUS_FORMAT_P210,
-// writes the chroma of row y, and both rows are the same.
-void WriteDeepChroma(const DeepTables& tables, const uint16_t* upper, const uint16_t* lower,
-                     int32_t width, int32_t y, const ImageTarget& image);
+// Writes rows y and y + 1 of an image of a deep YUV format: the luma of those in `luma`, and their
+// chroma. rows[1] is rows[0] if row y has chroma of its own, and null if no chroma is written.
+void WriteDeepYuv(const DeepTables& tables, const uint16_t* const rows[2], const Range& luma,
+                  int32_t width, int32_t y, const ImageTarget& image);
 
 // Converts `count` pixels of row y of the picture, from column x on, to 8-bit codes. Codes are
 // dithered where the picture has no constant colour. If `straight` is true, colours are divided by

@@ -389,16 +389,19 @@ void ConvertRow(const Input& in, int32_t y, bool all_views, const InputRings& ri
   std::fill_n(tiles, rings.tiles.stride, LightTile{0, 0});
   for (int view = 0; view < in.views; ++view) {
     const ImageSource& image = in.images[view];
-    const bool is_stored = !in.converts_centre;
-    if (!is_stored && (all_views || view == 0)) {
-      uint16_t *const rgb = rings.deep[view].Row(y), *const alpha = rings.deep_alpha[view].Row(y);
-      ReadDeep(*in.deep, image, 0, y - in.first, in.width, rgb, alpha);
-      AddToTiles(0, in.width, rgb, alpha, tiles);
-    } else if (is_stored || image.refocuses_alpha ||
-               MayExceedWhite(image.format, in.deep_transfer)) {
-      WithDeep<true>(in, view, 0, y, in.width,
-                     [&](int32_t x, int32_t some, const uint16_t* rgb, const uint16_t* alpha) {
-                       AddToTiles(x, some, rgb, alpha, tiles);
+    const bool is_stored = !in.converts_centre, is_read = !is_stored && (all_views || view == 0);
+    uint16_t *const rgb = rings.deep[view].Row(y), *const alpha = rings.deep_alpha[view].Row(y);
+    if (is_read) ReadDeep(*in.deep, image, 0, y - in.first, in.width, rgb, alpha);
+    for (int32_t x = 0, some; x < in.width; x += some) {
+      some = Min(in.width - x, LightTile::kTileColumns);
+      if (!is_stored && IsPlain(*in.deep, image, x, y - in.first, some)) continue;
+      if (is_read) {
+        AddToTiles(x, some, rgb + 3 * x, alpha + x, tiles);
+        continue;
+      }
+      WithDeep<true>(in, view, x, y, some,
+                     [&](int32_t, int32_t all, const uint16_t* codes, const uint16_t* alphas) {
+                       AddToTiles(x, all, codes, alphas, tiles);
                      });
     }
   }

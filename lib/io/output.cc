@@ -73,26 +73,32 @@ starfocus_status StoreCodes(const Output& out, const Range& rows, const Plane<ui
   return status;
 }
 
-// Stores a deep row in an image of a deep format. The chroma of a pair of rows is written together
-// with its lower row.
-void StoreDeepRow(const Output& out, const PictureRows& from, int32_t y, int32_t first) {
+// Stores rows `part` of those rows of the picture that are in `inside`, in an image of a deep
+// format. The chroma of a pair of rows is written together with its lower row.
+void StoreDeepRows(const Output& out, const PictureRows& from, const Range& inside,
+                   const Range& part) {
   const Rect& rect = out.rect;
   const auto row = [&](int32_t at) {
-    const ptrdiff_t x = rect.x;
-    return DeepRow{from.deep.Row(rect.y + at) + 3 * x, from.alpha.Row(rect.y + at) + x};
+    return from.deep.Row(rect.y + at) + 3 * static_cast<ptrdiff_t>(rect.x);
   };
-  const DeepRow here = row(y);
-  WriteDeep(*out.tables, here, rect.width, y, out.image);
-  const int32_t format = out.image.format;
-  if (format == STARFOCUS_FORMAT_P210) {
-    WriteDeepChroma(*out.tables, here.rgb, here.rgb, rect.width, y, out.image);
+  const bool pairs = HasRowPairs(out.image.format);
+  for (int32_t y = part.first, last; y < part.last; y = last) {
+    last = y + 1;
+    if (!out.image.is_yuv) {
+      const DeepRow here = {row(y), from.alpha.Row(rect.y + y) + rect.x};
+      WriteDeep(*out.tables, here, rect.width, y, out.image);
+      continue;
+    }
+    const int32_t upper = pairs ? y - y % 2 : y;
+    if (pairs && y == upper && last < part.last) ++last;
+    const bool is_alone = !pairs || upper + 1 == rect.height;
+    const uint16_t* rows[2] = {
+        upper < inside.first ? reinterpret_cast<const uint16_t*>(out.odd_row) : row(upper),
+        is_alone           ? row(upper)
+        : last > upper + 1 ? row(upper + 1)
+                           : nullptr};
+    WriteDeepYuv(*out.tables, rows, {y, last}, rect.width, upper, out.image);
   }
-  if (!HasRowPairs(format) || (y % 2 == 0 && y + 1 < rect.height)) return;
-  const uint16_t* above = here.rgb;
-  if (y % 2 != 0) {
-    above = y > first ? row(y - 1).rgb : reinterpret_cast<const uint16_t*>(out.odd_row);
-  }
-  WriteDeepChroma(*out.tables, above, here.rgb, rect.width, y - y % 2, out.image);
 }
 
 // Converts deep rows to codes, with their alpha if the output has alpha.
@@ -125,7 +131,7 @@ starfocus_status StoreRows(const Output& given, const Range& rows, const Picture
   const starfocus_status status = ForEach(count, jobs, [&](int32_t index, int32_t) {
     const Range part = PartOf(is_deep ? inside : rows, index, count);
     if (!is_deep) return Dither(out, part, from);
-    for (int32_t y = part.first; y < part.last; ++y) StoreDeepRow(out, from, y, inside.first);
+    StoreDeepRows(out, from, inside, part);
   });
   if (!is_deep && status == STARFOCUS_OK) {
     return StoreCodes(out, rows, out.dithered, most_jobs, jobs);

@@ -8,13 +8,16 @@
 #include "simd/pixels.h"
 #include "tests/kernels/kernel_cases.h"
 
-namespace test::image_cases {
+namespace test {
 namespace {
 
 // Longest row in pixels: more than two of the widest vectors.
 constexpr int kLongestRow = 2 * 64 + 67;
 
 }  // namespace
+}  // namespace test
+
+namespace test::image_cases {
 
 void PixelsToRgb(Draw* draw, ImageCall* call) {
   const size_t count = draw->Length(1, kLongestRow, 1024);
@@ -245,3 +248,33 @@ void UpsampleRow(Draw* draw, ImageCall* call) {
 }
 
 }  // namespace test::image_cases
+
+namespace test::word_cases {
+
+void YuvWordsToRgb(Draw* draw, WordCall* call) {
+  const size_t count = draw->Length(1, kLongestRow, 1024), half = (count + 1) / 2;
+  const YuvMatrix m = image_cases::AnyMatrix(draw);
+  const uint16_t* y = call->Input("y", image_cases::Words(count, draw));
+  const uint16_t* uv = call->Input("uv", image_cases::Words(2 * half, draw));
+  auto* rgb = call->Results<uint16_t>("rgb", 3 * count);
+  call->Calls(&WordKernels::YuvWordsToRgb, y, uv, count, m, rgb);
+}
+
+void RgbToLumaWords(Draw* draw, WordCall* call) {
+  const size_t count = draw->Length(1, kLongestRow, 1024);
+  const YuvMatrix m = image_cases::AnyMatrix(draw);
+  const uint16_t* rgb = call->Input("rgb", image_cases::Words(3 * count, draw));
+  auto* y = call->Results<uint16_t>("y", count);
+  call->Calls(&WordKernels::RgbToLumaWords, rgb, count, m, y);
+}
+
+void RgbToChromaWords(Draw* draw, WordCall* call) {
+  const size_t count = draw->Length(1, kLongestRow, 1024), half = (count + 1) / 2;
+  const YuvMatrix m = image_cases::AnyMatrix(draw);
+  const uint16_t* upper = call->Input("upper", image_cases::Words(3 * count, draw));
+  const uint16_t* lower = call->Input("lower", image_cases::Words(3 * count, draw));
+  auto* uv = call->Results<uint16_t>("uv", 2 * half);
+  call->Calls(&WordKernels::RgbToChromaWords, upper, lower, count, m, uv);
+}
+
+}  // namespace test::word_cases

@@ -86,6 +86,8 @@ TEST_CASE("kernels: every target returns the bits of the reference and writes no
                test::DepthTargets());
   CheckKernels(test::image_cases::kAll, ReferenceImageKernels(), BestImageKernels(),
                test::ImageTargets());
+  CheckKernels(test::word_cases::kAll, ReferenceWordKernels(), BestWordKernels(),
+               test::WordTargets());
 }
 
 TEST_CASE("kernels: on every target, HalvesToDepth converts all half floats correctly") {

@@ -213,6 +213,115 @@ TEST_CASE("deep: light beyond white is refocused like light below it") {
   }
 }
 
+// A picture of P010 or P210.
+struct Yuv {
+  Yuv(int w, int h, int f, int matrix = 0, int range = 0)
+      : width(w), height(h), luma(size_t(w * h)), chroma(size_t(w + w % 2) * size_t(Rows(f, h))) {
+    image = {f, matrix, range, 0, {}, {2 * size_t(w), 2 * size_t(w + w % 2), 0}};
+  }
+
+  static int Rows(int format, int rows) {
+    return format == STARFOCUS_FORMAT_P010 ? (rows + 1) / 2 : rows;
+  }
+  starfocus_image Image(int row = 0) {
+    starfocus_image from = image;
+    from.planes[0] = &luma[size_t(row * width)];
+    from.planes[1] = &chroma[size_t(Rows(image.format, row) * (width + width % 2))];
+    return from;
+  }
+  bool operator==(const Yuv& other) const { return luma == other.luma && chroma == other.chroma; }
+
+  int width, height;
+  starfocus_image image;
+  std::vector<uint16_t> luma, chroma;
+};
+
+// Returns R, G, B of samples of 10 bits, from 0 to 1.
+std::vector<double> ColourOf(int y, int u, int v, int matrix, int range) {
+  const double kr = matrix == STARFOCUS_MATRIX_BT601 ? 0.299 : 0.2126;
+  const double kb = matrix == STARFOCUS_MATRIX_BT601 ? 0.114 : 0.0722;
+  const bool full = range == STARFOCUS_RANGE_FULL;
+  const double luma = full ? y / 1023.0 : (y - 64) / 876.0, scale = full ? 1023 : 896;
+  const double blue = luma + (2 - 2 * kb) * (u - 512) / scale;
+  const double red = luma + (2 - 2 * kr) * (v - 512) / scale;
+  return {red, (luma - kr * red - kb * blue) / (1 - kr - kb), blue};
+}
+
+TEST_CASE("deep: constant colours of P010 and P210 are those of the standards, and stay") {
+  test::Random random(31);
+  const test::Scene scene = test::LayeredScene(67, 35, 1, 8, 26);
+  test::Engine engine(DeepConfig(scene));
+  for (int k = 0; k < 64;) {
+    const int format = STARFOCUS_FORMAT_P010 + k % 2, matrix = k / 2 % 2, range = k / 4 % 2;
+    const int y = random.Int(64, 940), u = random.Int(300, 724), v = random.Int(300, 724);
+    const std::vector<double> colour = ColourOf(y, u, v, matrix, range);
+    if (*std::min_element(colour.begin(), colour.end()) < 0) continue;
+    if (*std::max_element(colour.begin(), colour.end()) > 1) continue;
+    ++k;
+    Yuv in(67, 35, format, matrix, range), out(67, 35, format, matrix, range);
+    std::fill(in.luma.begin(), in.luma.end(), uint16_t(y << 6));
+    for (size_t n = 0; n < in.chroma.size(); ++n) in.chroma[n] = uint16_t((n % 2 ? v : u) << 6);
+    starfocus_light_field field = scene.Field();
+    field.views[0] = in.Image();
+    const starfocus::Params params = test::Params(3, 1, STARFOCUS_MODE_BLOCK);
+    Words rgb(67, 35, STARFOCUS_FORMAT_RGB16);
+    const starfocus_image to_rgb = rgb.Image(), to_yuv = out.Image();
+    CAPTURES(format, matrix, range, y, u, v);
+    REQUIRE(starfocus_refocus(engine.get(), &params, &field, &to_rgb, nullptr) == STARFOCUS_OK);
+    REQUIRE(starfocus_refocus(engine.get(), &params, &field, &to_yuv, nullptr) == STARFOCUS_OK);
+    for (int c = 0; c < 3; ++c) {
+      // Light has 15 bits, so dark codes of sRGB are up to 26 apart.
+      CHECK(std::fabs(rgb.At(40, 20)[c] - 65535 * colour[size_t(c)]) < 26);
+    }
+    CHECK(in == out);
+  }
+}
+
+TEST_CASE("deep: regions and streams of P010 and P210 give the words of the whole picture") {
+  const test::Scene scene = test::LayeredScene(81, 67, 1, 8, 27);
+  test::Config config = DeepConfig(scene);
+  config.features |= STARFOCUS_FEATURE_STREAMING;
+  config.max_workers = 3;
+  test::Engine engine(config);
+  starfocus::Params params = test::Params(3, 1, STARFOCUS_MODE_BLOCK);
+  for (const int format : {STARFOCUS_FORMAT_P010, STARFOCUS_FORMAT_P210}) {
+    test::Random random(32);
+    Yuv in(81, 67, format), whole(81, 67, format), streamed(81, 67, format);
+    for (uint16_t& word : in.luma) word = uint16_t(random.Int(64, 940) << 6);
+    for (uint16_t& word : in.chroma) word = uint16_t(random.Int(400, 624) << 6);
+    const auto field = [&](int row) {
+      starfocus_light_field of = scene.Field(row);
+      of.views[0] = in.Image(row);
+      return of;
+    };
+    const starfocus_light_field all = field(0);
+    starfocus_image image = whole.Image();
+    REQUIRE(starfocus_refocus(engine.get(), &params, &all, &image, nullptr) == STARFOCUS_OK);
+    REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
+    for (int pushed = 0, pulled = 0; pulled < 67;) {
+      int32_t consumed = 0, written = 0;
+      const starfocus_light_field rows = field(std::min(pushed, 66));
+      REQUIRE(starfocus_stream_push(engine.get(), &rows, std::min(6, 67 - pushed), &consumed) ==
+              STARFOCUS_OK);
+      image = streamed.Image(pulled);
+      REQUIRE(starfocus_stream_pull(engine.get(), &image, std::min(10, 67 - pulled), &written,
+                                    nullptr) == STARFOCUS_OK);
+      pushed += consumed;
+      pulled += written;
+    }
+    CHECK(whole == streamed);
+    params.region = {20, 10, 41, 37};
+    Yuv part(41, 37, format);
+    image = part.Image();
+    REQUIRE(starfocus_refocus(engine.get(), &params, &all, &image, nullptr) == STARFOCUS_OK);
+    params.region = {};
+    for (int y = 0; y < 37; ++y) {
+      const auto first = whole.luma.begin() + 81 * (y + 10) + 20;
+      CHECK(std::equal(first, first + 41, part.luma.begin() + 41 * y));
+    }
+  }
+}
+
 TEST_CASE("deep: all ways to ask for a picture give the same words") {
   const test::Scene scene = test::LayeredScene(150, 141, 5, 8, 24);
   for (const int format : {STARFOCUS_FORMAT_RGB_HALF, STARFOCUS_FORMAT_RGBA_HALF}) {
