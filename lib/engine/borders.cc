@@ -59,27 +59,24 @@ Borders AddBorders(const FullConfig& config, double max_blur, bool deblocks) {
   // within the blur radius plus the border of upsampling.
   borders.centre = Max(borders.cells * kCellSize, ToWholeCells(reach) + kCellBorder);
   if (!one_view) borders.centre = Max(borders.centre, kSearchBack - 1);
+  int32_t read = 0;  // by a block in any view
   for (int layer = 0; layer <= config.tuning.max_layer; ++layer) {
     int32_t& border = borders.layer[layer] = BorderOfLayer(blur, layer);
-    borders.centre = Max(borders.centre, DownToPicture(border, layer));
+    read = Max(read, DownToPicture(border, layer));
     const int32_t moved = (border << layer) + LargestMove(config) + CapturedBorder(layer);
     if (!one_view) borders.views = Max(borders.views, moved);
   }
+  borders.centre = Max(borders.centre, read);
+  read = Max(read, borders.views);
   const int32_t mixed = HasRims(config) ? kRimBorder : kMixedPixelBorder;
   borders.centre = Max(borders.centre, borders.layer[0] + mixed);
   borders.matting = borders.centre;
   borders.centre = borders.matting + CoverageBorder(config);
-  const int32_t read = one_view || !Has(config, STARFOCUS_FEATURE_COVERAGE)
-                           ? 0
-                           : LargestMove(config) + CapturedBorder(0);
-  borders.views = Max(borders.views, borders.centre + read);
-  const bool deep = HasDeep(config);
-  if (config.highlights > 1 || deep) {
-    // The border for highlights is slightly larger than the distance by which blur and disparity
-    // move highlights.
-    borders.highlights =
-        ToWholeCells(reach + kUpsampleBorder[2]) + 5 * kCellSize + blur + LargestMove(config);
-  }
+  const int32_t behind = one_view || !Has(config, STARFOCUS_FEATURE_COVERAGE)
+                             ? 0
+                             : LargestMove(config) + CapturedBorder(0);
+  borders.views = Max(borders.views, borders.centre + behind);
+  if (config.highlights > 1 || HasDeep(config)) borders.highlights = read;
   if (config.highlights > 1) {
     const int32_t farthest = Max(borders.highlights, borders.centre);
     borders.views = Max(borders.views, farthest + LampRadius(LargestLamp(config.width)));
