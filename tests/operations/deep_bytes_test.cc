@@ -11,7 +11,9 @@
 
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
+#include "tests/operations/cases.h"
 #include "tests/operations/operations.h"
+#include "tests/operations/random_cases.h"
 #include "tests/support/config.h"
 #include "tests/support/images.h"
 #include "tests/support/inside.h"
@@ -322,72 +324,106 @@ TEST_CASE("deep: regions and streams of P010 and P210 give the words of the whol
   }
 }
 
-TEST_CASE("deep: all ways to ask for a picture give the same words") {
-  const test::Scene scene = test::LayeredScene(150, 141, 5, 8, 24);
-  for (const int format : {STARFOCUS_FORMAT_RGB_HALF, STARFOCUS_FORMAT_RGBA_HALF}) {
-    test::Random random(5);
-    DeepField field(scene, format, [&](uint16_t* to, const uint8_t* codes) {
-      Bright(codes[0] > 200 ? 20 : 1)(to, codes);
-      const double alpha = codes[1] > 100 ? 1 : codes[1] / 100.0;
-      if (Channels(format) == 3) return;
-      for (int c = 0; c < 3; ++c) to[c] = test::DepthMemory::HalfOf(alpha * HalfToLight(to[c]));
-      to[3] = test::DepthMemory::HalfOf(alpha);
-    });
-    test::Config config = DeepConfig(scene);
-    config.features |= STARFOCUS_FEATURE_STREAMING;
+// Calls of one picture of a case.
+struct Ways {
+  Ways(const properties::Case& of, DeepField* given)
+      : params(of.params), field(given), format(given->views[0].format), config(of.config) {
+    config.features |= STARFOCUS_FEATURE_DEEP | STARFOCUS_FEATURE_STREAMING;
     config.max_workers = 3;
-    const starfocus::Params params = test::Params(3, 1, STARFOCUS_MODE_BLOCK);
-    test::Engine first(config), engine(config);
-    const Words whole = Refocused(&first, params, &field, format);
-    const auto same = [&](Words* part, int x0, int y0) {
-      for (int y = 0; y < part->height; ++y) {
-        if (std::memcmp(part->At(0, y), const_cast<Words&>(whole).At(x0, y0 + y),
-                        size_t(2 * Channels(format) * part->width)) != 0) {
-          return false;
-        }
-      }
-      return true;
-    };
-    for (const starfocus::simd::Kernels* kernels : test::SimdTargets()) {
-      test::UseKernels(kernels, engine.get());
-      Words out = Refocused(&engine, params, &field, format);
-      CHECK(same(&out, 0, 0));
-    }
-    {
-      starfocus::Params part = params;
-      part.region = {37, 61, 90, 70};
-      Words out(90, 70, format, 1);
-      const starfocus_light_field light_field = field.Field();
-      const starfocus_image image = out.Image();
-      REQUIRE(starfocus_refocus(engine.get(), &part, &light_field, &image, nullptr) ==
-              STARFOCUS_OK);
-      CHECK(same(&out, 37, 61));
-    }
-    {
-      test::PreparedMemory memory(engine);
-      const starfocus_light_field light_field = field.Field();
-      const starfocus_prepared* prepared = memory.Prepare(engine.get(), light_field);
-      Words out(scene.width, scene.height, format);
-      const starfocus_image image = out.Image();
-      REQUIRE(starfocus_refocus_prepared(engine.get(), &params, prepared, &image, nullptr) ==
-              STARFOCUS_OK);
-      CHECK(same(&out, 0, 0));
-    }
-    Words out(scene.width, scene.height, format);
-    REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
-    for (int pushed = 0, pulled = 0; pulled < scene.height;) {
+    config.highlights = 1;
+  }
+
+  Words Whole(test::Engine* engine) const { return Refocused(engine, params, field, format); }
+  Words Region(test::Engine* engine, const starfocus_region& region) const {
+    starfocus::Params part = params;
+    part.region = region;
+    Words out(region.width, region.height, format, 1);
+    const starfocus_light_field light_field = field->Field();
+    const starfocus_image image = out.Image();
+    REQUIRE(starfocus_refocus(engine->get(), &part, &light_field, &image, nullptr) == STARFOCUS_OK);
+    return out;
+  }
+  Words Prepared(test::Engine* engine) const {
+    test::PreparedMemory memory(*engine);
+    const starfocus_prepared* prepared = memory.Prepare(engine->get(), field->Field());
+    Words out(field->scene.width, field->scene.height, format);
+    const starfocus_image image = out.Image();
+    REQUIRE(starfocus_refocus_prepared(engine->get(), &params, prepared, &image, nullptr) ==
+            STARFOCUS_OK);
+    return out;
+  }
+  Words Streamed(test::Engine* engine, int push, int pull) const {
+    const int height = field->scene.height;
+    Words out(field->scene.width, height, format);
+    REQUIRE(starfocus_stream_begin(engine->get(), &params) == STARFOCUS_OK);
+    for (int pushed = 0, pulled = 0; pulled < height;) {
       int32_t consumed = 0, written = 0;
-      const starfocus_light_field rows = field.Field(std::min(pushed, scene.height - 1));
-      REQUIRE(starfocus_stream_push(engine.get(), &rows, std::min(7, scene.height - pushed),
+      const starfocus_light_field rows = field->Field(std::min(pushed, height - 1));
+      REQUIRE(starfocus_stream_push(engine->get(), &rows, std::min(push, height - pushed),
                                     &consumed) == STARFOCUS_OK);
       const starfocus_image image = out.Image(pulled);
-      REQUIRE(starfocus_stream_pull(engine.get(), &image, std::min(11, scene.height - pulled),
+      REQUIRE(starfocus_stream_pull(engine->get(), &image, std::min(pull, height - pulled),
                                     &written, nullptr) == STARFOCUS_OK);
       pushed += consumed;
       pulled += written;
     }
-    CHECK(same(&out, 0, 0));
+    return out;
   }
+
+  starfocus::Params params;
+  DeepField* field;
+  int format;
+  test::Config config;
+};
+
+// Returns true if `part` is the rectangle of `whole` at (x0, y0).
+bool IsPart(Words part, Words whole, int x0, int y0) {
+  for (int y = 0; y < part.height; ++y) {
+    if (std::memcmp(part.At(0, y), whole.At(x0, y0 + y),
+                    size_t(2 * Channels(part.format) * part.width)) != 0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Sets the words of a pixel of any deep RGB format: some pixels are transparent, and some are
+// beyond white where the format allows it.
+auto AnyWords(int format) {
+  return [format](uint16_t* to, const uint8_t* codes) {
+    const bool has_alpha = Channels(format) == 4;
+    const double alpha = codes[1] > 100 || !has_alpha ? 1 : codes[1] / 100.0;
+    if (format == STARFOCUS_FORMAT_RGB16 || format == STARFOCUS_FORMAT_RGBA16) {
+      kExpand(to, codes);
+      if (has_alpha) to[3] = uint16_t(65535 * alpha);
+      return;
+    }
+    Bright(alpha * (codes[0] > 200 ? 20 : 1))(to, codes);
+    if (has_alpha) to[3] = test::DepthMemory::HalfOf(alpha);
+  };
+}
+
+TEST_CASE("deep: all ways to ask for a picture of a random case give the same words") {
+  properties::ForRandomCases(120, [](test::Random* random) {
+    const properties::Case of = properties::RandomCase(random);
+    const int format = STARFOCUS_FORMAT_RGB16 + random->Int(0, 3);
+    DeepField field(of.scene, format, AnyWords(format));
+    const Ways ways(of, &field);
+    INFO(of.Text(), " format ", format);
+    test::Engine first(ways.config), engine(ways.config);
+    const Words whole = ways.Whole(&first);
+    const auto targets = test::SimdTargets();
+    test::UseKernels(targets[random->Next() % targets.size()], engine.get());
+    CHECK(IsPart(ways.Whole(&engine), whole, 0, 0));
+    const int x = random->Int(0, of.scene.width - 1), y = random->Int(0, of.scene.height - 1);
+    const starfocus_region region = {x, y, random->Int(1, of.scene.width - x),
+                                     random->Int(1, of.scene.height - y)};
+    if (of.params.study.mode != STARFOCUS_MODE_BENCHMARK) {
+      CHECK(IsPart(ways.Region(&engine, region), whole, x, y));
+    }
+    CHECK(IsPart(ways.Prepared(&engine), whole, 0, 0));
+    CHECK(IsPart(ways.Streamed(&engine, random->Int(1, 40), random->Int(1, 40)), whole, 0, 0));
+  });
 }
 
 }  // namespace
