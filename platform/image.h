@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures in memory: of 8 bits, and of 16 bits.
+// Pictures in memory: of 8 bits, of 16 bits, and in YUV.
 #ifndef STARFOCUS_PLATFORM_IMAGE_H_
 #define STARFOCUS_PLATFORM_IMAGE_H_
 
@@ -53,6 +53,26 @@ struct DeepImage {
   size_t row_samples() const { return size_t(channels) * size_t(width); }
   uint16_t* row(int y) { return samples.data() + size_t(y) * row_samples(); }
   const uint16_t* row(int y) const { return samples.data() + size_t(y) * row_samples(); }
+};
+
+// A picture in YUV with one chroma sample for 2 x 2 pixels, as the engine reads and writes it.
+struct PlanarImage {
+  int width = 0;
+  int height = 0;
+  bool is_deep = false;  // true: STARFOCUS_FORMAT_P010; false: STARFOCUS_FORMAT_I420
+  int32_t matrix = STARFOCUS_MATRIX_BT601;  // starfocus_matrix
+  int32_t range = STARFOCUS_RANGE_LIMITED;  // starfocus_range
+  // Planes in rows without padding: Y, U, V, or words of Y and then words of U and V in turn.
+  std::vector<uint8_t> samples;
+
+  int chroma_width() const { return (width + 1) / 2; }
+  int chroma_height() const { return (height + 1) / 2; }
+  size_t luma_samples() const { return size_t(width) * size_t(height); }
+  size_t chroma_samples() const { return size_t(chroma_width()) * size_t(chroma_height()); }
+  // Makes the samples of the size.
+  void Allocate() {
+    samples.resize((luma_samples() + 2 * chroma_samples()) * (is_deep ? 2 : 1));
+  }
 };
 
 }  // namespace starfocus

@@ -113,9 +113,25 @@ starfocus_image EngineImage(const DeepImage& deep, int first) {
   return image;
 }
 
+starfocus_image EngineImage(const PlanarImage& planar) {
+  auto* const luma = const_cast<uint8_t*>(planar.samples.data());
+  const size_t bytes = planar.is_deep ? 2 : 1, row = size_t(planar.chroma_width());
+  starfocus_image image = starfocus_image_rgb(luma, bytes * size_t(planar.width));
+  image.format = planar.is_deep ? STARFOCUS_FORMAT_P010 : STARFOCUS_FORMAT_I420;
+  image.matrix = planar.matrix;
+  image.range = planar.range;
+  image.planes[1] = luma + bytes * planar.luma_samples();
+  image.planes[2] = luma + planar.luma_samples() + planar.chroma_samples();
+  image.strides[1] = planar.is_deep ? 2 * bytes * row : row;
+  image.strides[2] = row;
+  return image;
+}
+
 starfocus_light_field EngineRows(const LightField& light_field, int first, bool deep) {
   starfocus_light_field rows = starfocus::NewLightField();
-  for (size_t i = 0; i < light_field.views.size(); ++i) {
+  const bool planar = !light_field.planar.samples.empty();
+  if (planar) rows.views[0] = EngineImage(light_field.planar);
+  for (size_t i = 0; i < light_field.views.size() && !planar; ++i) {
     const Image& view = light_field.views[i];
     rows.views[i] = deep ? EngineImage(light_field.deep[i], first)
                          : starfocus_image_rgb(view.row(first), view.stride());

@@ -22,6 +22,9 @@ struct LightField {
   // The same views, if their files have more than 8 bits or alpha; otherwise empty. Codes of
   // integers have one transfer.
   std::vector<DeepImage> deep;
+  // The only view in YUV, a frame of a video; views[0] then has a size, but no pixels. Without
+  // samples, `views` has all pixels.
+  PlanarImage planar;
   Positions positions;  // positions of the views; empty: positions of starfocus_view_position
   FloatMap disparity;
   // starfocus_light_field.coverage in rows without padding; empty: no coverage
@@ -44,8 +47,11 @@ starfocus_disparity_stats MeasureDisparity(const FloatMap& map);
 // Returns a starfocus_image that points to the rows of a picture from `first` on.
 starfocus_image EngineImage(const DeepImage& deep, int first = 0);
 
+// Returns a starfocus_image that points to the planes of a picture.
+starfocus_image EngineImage(const PlanarImage& planar);
+
 // Returns a starfocus_light_field that points to the rows from `first` on, for a call of the
-// engine. With `deep`, the views are light_field.deep.
+// engine. With `deep`, the views are light_field.deep. For a view in YUV, `first` must be 0.
 starfocus_light_field EngineRows(const LightField& light_field, int first = 0, bool deep = false);
 
 // Returns the path of the folder's disparity map, whether or not the file exists.

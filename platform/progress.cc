@@ -40,6 +40,7 @@ void Progress::Step(int64_t steps) {
 }
 
 std::string Progress::State(int64_t done, int64_t total, double seconds) {
+  if (total <= 0) return "";
   const double share = static_cast<double>(done) / static_cast<double>(total);
   char text[80];
   std::snprintf(text, sizeof(text), ": %.0f %%", 100 * share);

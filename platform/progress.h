@@ -14,7 +14,7 @@ namespace starfocus {
 
 class Progress {
  public:
-  // @param total number of steps that correspond to a progress of 100 %
+  // @param total number of steps that correspond to a progress of 100 %; 0: unknown
   Progress(std::string what, int64_t total);
   ~Progress();  // erases the progress line
   Progress(const Progress&) = delete;
@@ -23,7 +23,7 @@ class Progress {
   void Step(int64_t steps = 1);  // Thread-safe.
 
   // Returns a text such as ": 43 %, 12 s left". `seconds` is the elapsed time. The text omits the
-  // remaining time if it cannot be estimated yet.
+  // remaining time if it cannot be estimated yet, and is empty if `total` is 0.
   static std::string State(int64_t done, int64_t total, double seconds);
 
  private:

@@ -115,6 +115,13 @@ void EngineRun::MakePicture(const EngineTask& task, EngineResult* result) {
   const bool whole = region.width == 0;
   const int width = whole ? task.config.width : region.width;
   const int height = whole ? task.config.height : region.height;
+  if (task.planar_picture) {
+    result->planar = task.planar;
+    result->planar.width = width;
+    result->planar.height = height;
+    result->planar.Allocate();
+    return;
+  }
   if (!task.deep_picture) {
     result->picture = Image(width, height);
     return;
@@ -166,8 +173,10 @@ starfocus_status EngineRun::SetCallbacks(const EngineTask& task, bool is_picture
 
 namespace {
 
-// Returns the rows from `first` on of the picture that the task computes.
+// Returns the rows from `first` on of the picture that the task computes. For a
+// picture in YUV, `first` must be 0.
 starfocus_image OutputRows(const EngineTask& task, const EngineResult& result, int first) {
+  if (task.planar_picture) return EngineImage(result.planar);
   if (task.deep_picture) return EngineImage(result.deep, first);
   return starfocus_image_rgb(result.picture.row(first), result.picture.stride());
 }

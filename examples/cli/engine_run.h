@@ -62,11 +62,15 @@ struct EngineTask {
   bool deep_views = false;
   // True: the picture has the kind of the first deep view. False: it has 8 bits.
   bool deep_picture = false;
+  // True: the picture has the kind of `planar`, of which only the kind is read.
+  bool planar_picture = false;
+  PlanarImage planar;
 };
 
 struct EngineResult {
   Image picture;   // of 8 bits
   DeepImage deep;  // with EngineTask::deep_picture, from which `picture` is made
+  PlanarImage planar;  // with EngineTask::planar_picture, instead of `picture`
   starfocus_report report = starfocus::NewReport();
   starfocus_layer_report layers[STARFOCUS_LAYERS] = {};
   double seconds = 0;  // processing time in the engine, in seconds

@@ -13,6 +13,7 @@
 #include "platform/problem.h"
 #include "platform/progress.h"
 #include "platform/runner.h"
+#include "platform/y4m.h"
 #include "starfocus/depth.h"
 #include "starfocus/starfocus.hpp"
 
@@ -110,6 +111,7 @@ struct MapTask {
   const FloatMap* given;       // map to repair; null: estimate the map
   DisparityRange range;
   bool confidence, coverage;
+  const PlanarImage* planar = nullptr;  // the only view in YUV; null: `views` has the pixels
 };
 
 struct MadeMap {
@@ -126,6 +128,7 @@ starfocus::Config ConfigOf(const MapTask& task, Maker* maker) {
   config.disparity_min = task.range.min;
   config.disparity_max = task.range.max;
   config.max_workers = maker->pool.workers();
+  if (task.planar != nullptr) config.features |= STARFOCUS_FEATURE_IMAGES;
   return config;
 }
 
@@ -146,7 +149,8 @@ Result<MadeMap> MakeMap(const std::string& where, const MapTask& task, Maker* ma
     const std::unique_ptr<void, FreeAligned> workspace(
         ::operator new (bytes, std::align_val_t{STARFOCUS_ALIGNMENT}));
     starfocus_light_field light_field = starfocus::NewLightField();
-    for (size_t i = 0; i < static_cast<size_t>(task.used); ++i) {
+    if (task.planar != nullptr) light_field.views[0] = EngineImage(*task.planar);
+    for (size_t i = 0; i < static_cast<size_t>(task.used) && task.planar == nullptr; ++i) {
       light_field.views[i] = starfocus_image_rgb(task.views[i].row(0), task.views[i].stride());
     }
     const auto width = size_t(centre.width), pixels = width * size_t(centre.height);
@@ -305,9 +309,12 @@ Result<DisparityEstimate> RepairDisparity(const std::string& where, const LightF
   const Images& views = light_field.views;
   const Positions& positions = light_field.positions;
   Maker maker(options.threads, "repairing disparities");
+  const bool is_planar = !light_field.planar.samples.empty();
+  const PlanarImage narrow = is_planar ? Narrow(light_field.planar) : PlanarImage();
   Result<MadeMap> made = MakeMap(where,
                                  {views, StarWithin(positions), positions, &given, range,
-                                  options.confidence, options.coverage},
+                                  options.confidence, options.coverage,
+                                  is_planar ? &narrow : nullptr},
                                  &maker);
   if (!made) return made.error();
   DisparityEstimate estimate;

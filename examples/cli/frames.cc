@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "examples/cli/frame_pattern.h"
 #include "examples/cli/input.h"
 #include "platform/file.h"
 #include "platform/folder.h"
@@ -30,11 +31,14 @@ bool IsReady(const MapOptions& options, const Capture& capture) {
 }
 
 // Returns the path of the depth picture or matte of each frame. `path` is one file for all frames,
-// a folder with a file for each frame, or empty.
+// a folder or a pattern with a file for each frame, or empty.
 Result<std::vector<std::string>> FindPictures(const std::vector<std::string>& frames,
                                               const std::string& path, const std::string& ending) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) return PairWithFolder(frames, path, ending);
+  if (IsFramePattern(path)) {
+    return PairWithPattern(frames, path, ending == "depth" ? "depth picture" : ending);
+  }
   return std::vector<std::string>(frames.size(), path);
 }
 
@@ -44,9 +48,14 @@ Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inpu
                                             const InputOptions& options, const std::string& out) {
   std::vector<std::string> paths = inputs;
   if (std::find(paths.begin(), paths.end(), "-") != paths.end()) {
-    return Error::Usage("SRC", "files or folders as frames", "- (standard input)");
+    return Error::Usage("SRC", "one stream, or files or folders as frames", "- and others");
   }
-  if (inputs.size() == 1) {
+  if (inputs.size() == 1 && IsFramePattern(inputs[0])) {
+    const Result<std::map<uint64_t, std::string>> files = FindPatternFiles(inputs[0]);
+    if (!files) return files.error();
+    paths.clear();
+    for (const auto& [number, path] : *files) paths.push_back(path);
+  } else if (inputs.size() == 1) {
     Result<FoundInputs> found = FindInputs(inputs[0], true, out);
     if (!found) return found.error();
     TellSkipped(found->skipped);
@@ -143,7 +152,7 @@ InputOptions OptionsOf(const InputOptions& options, const FrameSource& frame) {
   return one;
 }
 
-Result<MapSurvey> SurveyClip(const std::vector<FrameSource>& frames, const InputOptions& options) {
+Result<MapSurvey> SurveyClip(size_t frames, const OpenMap& open) {
   MapSurvey sum, before;
   // Whether 0 and 65535 are depths influences the range of the values. A frame that is judged
   // differently from the clip is therefore opened again, and with it all frames.
@@ -151,10 +160,8 @@ Result<MapSurvey> SurveyClip(const std::vector<FrameSource>& frames, const Input
     sum = {};
     First first;
     std::set<bool> judged;
-    for (const FrameSource& frame : frames) {
-      InputOptions one = OptionsOf(options, frame);
-      one.map.clip = clip;
-      const Result<Capture> capture = ReadInput(one);
+    for (size_t frame = 0; frame < frames; ++frame) {
+      const Result<Capture> capture = open(frame, clip);
       if (!capture) return capture.error();
       if (Error error = CheckFrame(*capture, sum, &first)) return error;
       const MapEnds& ends = capture->survey.ends;

@@ -5,6 +5,7 @@
 #ifndef STARFOCUS_EXAMPLES_CLI_FRAMES_H_
 #define STARFOCUS_EXAMPLES_CLI_FRAMES_H_
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,9 +27,9 @@ struct FrameSource {
 
 // Returns the frames. If the only input is a folder but not a light field, the frames are the
 // photos and light fields in the folder in natural order, without the folder `out`. A row of
-// pictures with numbers in their names is a clip and not a light field. If options.depth or
-// options.matte is a folder, each frame gets a picture of this folder (depth_folder.h). Prints
-// other files in the folders to stderr.
+// pictures with numbers in their names is a clip and not a light field. A pattern such as
+// "in/%05d.png" (frame_pattern.h) means all its files. If options.depth or options.matte is a folder
+// or a pattern, each frame gets one of its pictures. Prints other files in the folders to stderr.
 Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inputs,
                                             const InputOptions& options, const std::string& out);
 
@@ -67,11 +68,15 @@ class FrameFolders {
 // Returns the options that open one frame.
 InputOptions OptionsOf(const InputOptions& options, const FrameSource& frame);
 
+// Opens a frame, whose depth map is interpreted by the figures of the clip, or by its own figures if
+// `clip` is null.
+using OpenMap = std::function<Result<Capture>(size_t frame, const MapSurvey* clip)>;
+
 // Opens the frames one after another. Returns an error if a frame has no depth, if its size differs
 // from the first frame, or if the values of its depth map are of another kind. Otherwise returns
 // the sum of the figures of all depth maps, which stands for the figures of each map
 // (DepthOptions::clip). At most one frame is in memory.
-Result<MapSurvey> SurveyClip(const std::vector<FrameSource>& frames, const InputOptions& options);
+Result<MapSurvey> SurveyClip(size_t frames, const OpenMap& open);
 
 // Returns the path of the depth picture of each frame or, if `ending` is "matte" and not "depth",
 // of its matte. A picture belongs to a frame

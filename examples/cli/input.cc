@@ -127,8 +127,6 @@ void TellSkipped(const std::vector<SkippedPath>& skipped) {
   for (const SkippedPath& one : skipped) TellLine("starfocus: skipped " + Text(one));
 }
 
-namespace {
-
 Error CheckNear(const DepthOptions& options) {
   if (options.unit == DepthUnit::kNone) return {};
   const bool disparity = options.unit == DepthUnit::kDisparity;
@@ -138,6 +136,8 @@ Error CheckNear(const DepthOptions& options) {
       disparity ? "white for --depth-unit disparity" : "black for the distances of --depth-unit",
       disparity ? "black" : "white");
 }
+
+namespace {
 
 // Returns the name of the first option of a depth picture or a matte that is set. Returns null if
 // all of these options are unset.

@@ -42,6 +42,9 @@ std::string NameOfInput(const std::string& input);
 // Prints the skipped paths to stderr.
 void TellSkipped(const std::vector<SkippedPath>& skipped);
 
+// Returns an error if --near contradicts --depth-unit.
+Error CheckNear(const DepthOptions& options);
+
 // Opens the input (OpenCapture). If the input is a photo without depth, runs the depth command. The
 // map of a photo is not resized before LoadInput.
 Result<Capture> ReadInput(const InputOptions& options);

@@ -66,7 +66,7 @@ double LargestPercentage(double range, const ApertureChoice& aperture) {
 // Describes the largest aperture within the blur limit, as a value of the option that set the
 // aperture.
 std::string WhatFits(double range, const ApertureChoice& aperture) {
-  if (aperture.option == "--f-stop") {
+  if (aperture.option == "--f-stop" || aperture.option == "--aperture-keys") {
     return "f/" + ThreeDigits(WidestFStop(range, aperture)) + " or narrower";
   }
   return aperture.option == "--aperture"

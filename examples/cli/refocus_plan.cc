@@ -101,14 +101,6 @@ void UseRange(const FocusBand& range, LensPlan* plan) {
   plan->lens.focus_farther = focus - range.far;
 }
 
-Error CheckPixel(int width, int height, const LensPlan& plan) {
-  if (plan.x < width && plan.y < height) return {};
-  return Error::Usage("--focus-at",
-                      "a pixel of the picture, up to " + std::to_string(width - 1) + "," +
-                          std::to_string(height - 1),
-                      std::to_string(plan.x) + "," + std::to_string(plan.y));
-}
-
 // Adds the options that trade time against error.
 void AddTuningOptions(Command* command, LensOptions* options) {
   AddOptions(
@@ -265,10 +257,30 @@ Result<starfocus_disparity_stats> PrepareDisparity(const std::string& where, con
                   Short(stats.min) + " to " + Short(stats.max));
 }
 
+namespace {
+
+Error CheckPixel(const char* option, const Pixel& at, int width, int height) {
+  if (at.x < width && at.y < height) return {};
+  return Error::Usage(option,
+                      "a pixel of the picture, up to " + std::to_string(width - 1) + "," +
+                          std::to_string(height - 1),
+                      std::to_string(at.x) + "," + std::to_string(at.y));
+}
+
+}  // namespace
+
+Result<std::optional<double>> FocusOfPixel(const char* option, const Pixel& at, int width,
+                                           int height, const FloatMap& map) {
+  if (Error error = CheckPixel(option, at, width, height)) return error;
+  return FocusAround(map, static_cast<int>(int64_t{at.x} * map.width / width),
+                     static_cast<int>(int64_t{at.y} * map.height / height));
+}
+
 Error ChooseFocus(const FloatMap& map, LensPlan* plan) {
   if (!plan->foci.empty()) return {};
   double focus = 0;
-  if (Error error = CheckPixel(map.width, map.height, *plan)) return error;
+  const Pixel at = {plan->x, plan->y};
+  if (Error error = CheckPixel("--focus-at", at, map.width, map.height)) return error;
   // starfocus_focus_at cannot fail, because PrepareDisparity has checked the map.
   const starfocus_depth_map depth = EngineMap(map);
   starfocus_focus_at(&depth, map.width, map.height, plan->x, plan->y, &focus, nullptr);
@@ -316,12 +328,10 @@ Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan) 
   const Image& picture = light_field.views[0];
   std::vector<double> foci = plan->foci;
   if (foci.empty()) {
-    if (Error error = CheckPixel(picture.width, picture.height, *plan)) return error;
-    const auto x = static_cast<int>(int64_t{plan->x} * map.width / picture.width);
-    const auto y = static_cast<int>(int64_t{plan->y} * map.height / picture.height);
-    const std::optional<double> focus = FocusAround(map, x, y);
-    if (!focus) return {};
-    foci = {*focus};
+    const Result<std::optional<double>> focus =
+        FocusOfPixel("--focus-at", {plan->x, plan->y}, picture.width, picture.height, map);
+    if (!focus || !*focus) return focus.error();
+    foci = {**focus};
   }
   starfocus_disparity_stats stats = MeasureDisparity(map);
   // If no value is known, later processing of the map reports the error.

@@ -64,6 +64,12 @@ Error CheckRenderer(const std::string& where, const LensPlan& plan, const Positi
 // Measures a map, which must not have unknown values. Error messages start with `where`.
 Result<starfocus_disparity_stats> PrepareDisparity(const std::string& where, const FloatMap& map);
 
+// Returns the disparity of the surface at a pixel of a picture of `width` x `height` pixels, or
+// nullopt if the map has no known values around the pixel. The map may have another size. Returns an
+// error of the option if the pixel is outside the picture.
+Result<std::optional<double>> FocusOfPixel(const char* option, const Pixel& at, int width,
+                                           int height, const FloatMap& map);
+
 // Sets the focus to the disparity at the chosen pixel, if the focus depends on a pixel.
 Error ChooseFocus(const FloatMap& map, LensPlan* plan);
 

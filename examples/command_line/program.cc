@@ -206,6 +206,10 @@ Error CheckFolderApart(const OutputPath& output, const std::vector<std::string>&
   return {};
 }
 
+bool IsVideoName(const std::string& path) {
+  return !path.empty() && path.back() != '/' && KindOf(LowerExtension(path)) == OutputKind::kVideo;
+}
+
 Error CheckKind(const OutputPath& output, OutputKind written) {
   const std::string& path = output.path;
   if (written == OutputKind::kFolder && IsStandardStream(path)) {

@@ -39,6 +39,10 @@ Error CheckApart(const std::vector<OutputPath>& outputs, const Inputs& inputs);
 // input folder, output files would mix with the views.
 Error CheckFolderApart(const OutputPath& output, const std::vector<std::string>& folders);
 
+// Returns true if the extension of a path is that of a video that starfocus does not write, or of a
+// GIF file.
+bool IsVideoName(const std::string& path);
+
 enum class OutputKind { kPage, kJson, kFolder, kVideo, kOther };
 
 // Returns an error if the extension of a page, a JSON file or a folder states another kind. Other

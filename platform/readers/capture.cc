@@ -116,60 +116,32 @@ int PixelAt(double share, int pixels) {
   return std::min(static_cast<int>(share * pixels), pixels - 1);
 }
 
+// Fills a capture with what all photos have, one view or a pair.
+void MoveDescription(DepthPhoto* photo, Capture* capture) {
+  capture->format = photo->format;
+  capture->metadata = std::move(photo->metadata);
+  capture->deep_colours = std::move(photo->deep_colours);
+  capture->facts = std::move(photo->facts);
+  capture->notes = std::move(photo->notes);
+  capture->lost = std::move(photo->lost);
+  if (!photo->is_blurred) return;
+  capture->facts.emplace_back("portrait", "the camera has blurred the background");
+  capture->notes.push_back(
+      "the camera has already blurred the background of this portrait, so refocusing blurs the "
+      "background again (an export without the portrait effect prevents this)");
+}
+
 Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options) {
   const bool two_files = !options.right.empty();
   Result<DepthPhoto> read =
       two_files ? ReadPictureFiles(path, options.right)
                 : ReadDepthPhotoFile(path, options.map, {options.depth, options.matte});
   if (!read) return read.error();
-  DepthPhoto& photo = *read;
-  const bool pair = !photo.right.pixels.empty();
+  if (read->right.pixels.empty()) return TakePhoto(path, options, std::move(*read));
   Capture capture;
-  Error error =
-      pair ? AlignPair(InputName(path), &photo)
-           : MakePhotoField(InputName(path), &photo, options.map).MoveTo(&capture.light_field);
-  if (error) return error;
-  if (!pair && !photo.matte.values.empty()) {
-    capture.matte = Matte(photo.matte);
-    photo.facts.emplace_back("matte", Description(capture.matte));
-  }
-  capture.format = photo.format;
-  capture.metadata = std::move(photo.metadata);
-  if (photo.deep && !pair) capture.light_field.deep.push_back(std::move(*photo.deep));
-  if (!pair) capture.gain_map = std::move(photo.gain_map);
-  capture.deep_colours = std::move(photo.deep_colours);
-  capture.facts = std::move(photo.facts);
-  capture.notes = std::move(photo.notes);
-  capture.lost = std::move(photo.lost);
-  if (photo.is_blurred) {
-    capture.facts.emplace_back("portrait", "the camera has blurred the background");
-    capture.notes.push_back(
-        "the camera has already blurred the background of this portrait, so refocusing blurs the "
-        "background again (an export without the portrait effect prevents this)");
-  }
-  if (pair) {
-    TakePair(path, photo.right_path.empty() ? path : photo.right_path, &photo, &capture);
-    return capture;
-  }
-  if (!options.small_map) FitMap(&capture.light_field);
-  const Image& picture = capture.light_field.views[0];
-  capture.photo = true;
-  capture.survey = std::move(photo.survey);
-  capture.files = {{{0, 0}, path}};
-  const bool two_surfaces = !capture.light_field.coverage.empty();
-  if (two_surfaces) capture.subject = AssumedSubject(picture);
-  const std::string& map_path = two_surfaces ? photo.matte_path : photo.depth_path;
-  capture.map_path = map_path.empty() ? path : map_path;
-  capture.care = photo.is_ready || two_surfaces ? MapCare::kNone : MapCare::kRepair;
-  capture.widest = 1;
-  capture.f_stop = kPhotoFStop;
-  capture.has_focus = photo.has_focus;
-  capture.focus_x = PixelAt(photo.focus_x, picture.width);
-  capture.focus_y = PixelAt(photo.focus_y, picture.height);
-  capture.has_subject = photo.has_subject;
-  capture.subject_x = PixelAt(photo.subject_x, picture.width);
-  capture.subject_y = PixelAt(photo.subject_y, picture.height);
-  capture.focus = photo.focus_value;
+  if (Error error = AlignPair(InputName(path), &*read)) return error;
+  MoveDescription(&*read, &capture);
+  TakePair(path, read->right_path.empty() ? path : read->right_path, &*read, &capture);
   return capture;
 }
 
@@ -246,6 +218,41 @@ Result<Capture> OpenCapture(const std::string& path, const CaptureOptions& optio
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "read it");
   }
+}
+
+Result<Capture> TakePhoto(const std::string& path, const CaptureOptions& options,
+                          DepthPhoto photo) {
+  Capture capture;
+  LightField& light_field = capture.light_field;
+  Error error = MakePhotoField(InputName(path), &photo, options.map).MoveTo(&light_field);
+  if (error) return error;
+  if (!photo.matte.values.empty()) {
+    capture.matte = Matte(photo.matte);
+    photo.facts.emplace_back("matte", Description(capture.matte));
+  }
+  MoveDescription(&photo, &capture);
+  if (photo.deep) light_field.deep.push_back(std::move(*photo.deep));
+  capture.gain_map = std::move(photo.gain_map);
+  if (!options.small_map) FitMap(&light_field);
+  const Image& picture = light_field.views[0];
+  capture.photo = true;
+  capture.survey = std::move(photo.survey);
+  capture.files = {{{0, 0}, path}};
+  const bool two_surfaces = !light_field.coverage.empty();
+  if (two_surfaces) capture.subject = AssumedSubject(picture);
+  const std::string& map_path = two_surfaces ? photo.matte_path : photo.depth_path;
+  capture.map_path = map_path.empty() ? path : map_path;
+  capture.care = photo.is_ready || two_surfaces ? MapCare::kNone : MapCare::kRepair;
+  capture.widest = 1;
+  capture.f_stop = kPhotoFStop;
+  capture.has_focus = photo.has_focus;
+  capture.focus_x = PixelAt(photo.focus_x, picture.width);
+  capture.focus_y = PixelAt(photo.focus_y, picture.height);
+  capture.has_subject = photo.has_subject;
+  capture.subject_x = PixelAt(photo.subject_x, picture.width);
+  capture.subject_y = PixelAt(photo.subject_y, picture.height);
+  capture.focus = photo.focus_value;
+  return capture;
 }
 
 Error LoadCapture(const Positions& wanted, Capture* capture, ThreadRunner* runner) {

@@ -65,6 +65,11 @@ struct Capture {
 // pictures. An error message describes the content that was found and the content that is missing.
 Result<Capture> OpenCapture(const std::string& path, const CaptureOptions& options);
 
+// Makes the capture of a photo of one view that has been read: converts its map to disparities.
+// `path` is the name of the photo, and of its map unless the map has a file of its own.
+Result<Capture> TakePhoto(const std::string& path, const CaptureOptions& options,
+                          DepthPhoto photo);
+
 // Reads the views at the positions `wanted`, or all views if `wanted` is empty. Reads the disparity
 // map and the coverage if they exist. `runner` decodes several views at a time; if `runner` is
 // null, the calling thread decodes all views.

@@ -57,7 +57,11 @@ Error TakeMatte(const std::string& where, const DepthOptions& options, DepthOrie
 
 Error ReadMatteFile(const std::string& path, const DepthOptions& options, DepthPhoto* photo) {
   Result<Samples> samples = ReadSamples(path, Alpha::kTaken, options);
-  if (!samples) return samples.error();
+  return samples ? TakeMattePicture(path, options, std::move(*samples), photo) : samples.error();
+}
+
+Error TakeMattePicture(const std::string& path, const DepthOptions& options, Samples samples,
+                       DepthPhoto* photo) {
   if (photo->map.values.empty()) photo->format = "photo and matte";
   // The mattes in the photo are not used.
   photo->facts.erase(std::remove_if(photo->facts.begin(), photo->facts.end(),
@@ -65,7 +69,7 @@ Error ReadMatteFile(const std::string& path, const DepthOptions& options, DepthP
                      photo->facts.end());
   photo->facts.emplace_back("matte picture", path);
   photo->matte_path = path;
-  return TakeMatte(path, options, options.orientation, std::move(*samples), photo);
+  return TakeMatte(path, options, options.orientation, std::move(samples), photo);
 }
 
 Error EstimateMatte(const std::string& where, const DepthOptions& options, DepthPhoto* photo) {

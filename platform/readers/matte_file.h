@@ -18,6 +18,10 @@ namespace starfocus {
 // the photo. The function returns an error unless the matte belongs to the photo (CheckMatte).
 Error ReadMatteFile(const std::string& path, const DepthOptions& options, DepthPhoto* photo);
 
+// Interprets the samples of the matte picture `path` as the matte of the photo, like ReadMatteFile.
+Error TakeMattePicture(const std::string& path, const DepthOptions& options, Samples samples,
+                       DepthPhoto* photo);
+
 // Computes the matte of a photo by options.estimate_matte, which must be set. `where` is the name
 // of the photo.
 Error EstimateMatte(const std::string& where, const DepthOptions& options, DepthPhoto* photo);

@@ -12,12 +12,12 @@
 
 namespace starfocus {
 
-// Encodes a sequence of pictures of equal size. Several pictures form an endless animation in which
-// each picture lasts a tenth of a second. Only the encoded pictures are kept in memory.
+// Encodes a sequence of pictures of equal size. Several pictures form an endless animation. Only the encoded pictures are kept in memory.
 class WebpWriter {
  public:
-  // `path` appears only in error messages; `quality` is 1 to 100.
-  WebpWriter(std::string path, int quality);
+  // `path` appears only in error messages; `quality` is 1 to 100. In an animation, each picture
+  // lasts `milliseconds`.
+  WebpWriter(std::string path, int quality, double milliseconds = 100);
   ~WebpWriter();
   WebpWriter(const WebpWriter&) = delete;
   WebpWriter& operator=(const WebpWriter&) = delete;

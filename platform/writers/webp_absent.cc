@@ -8,7 +8,7 @@ struct WebpWriter::State {
   std::string path;
 };
 
-WebpWriter::WebpWriter(std::string path, int) : state_(new State) { state_->path = path; }
+WebpWriter::WebpWriter(std::string path, int, double) : state_(new State) { state_->path = path; }
 
 WebpWriter::~WebpWriter() = default;
 

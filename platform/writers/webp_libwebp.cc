@@ -5,6 +5,7 @@
 #include <webp/encode.h>
 #include <webp/mux.h>
 
+#include <cmath>
 #include <utility>
 
 #include "platform/text.h"
@@ -13,8 +14,6 @@
 
 namespace starfocus {
 namespace {
-
-constexpr int kMilliseconds = 100;  // duration of each picture of an animation
 
 Error Failed(const std::string& path, const std::string& reason) {
   return Expected(path, "pictures that libwebp can write", reason);
@@ -40,7 +39,11 @@ bool SetChunk(WebPMux* mux, const char* name, const Bytes& bytes) {
 struct WebpWriter::State {
   std::string path;
   int quality = 0, pictures = 0, width = 0, height = 0;
+  double milliseconds = 0;
   WebPAnimEncoder* encoder = nullptr;
+
+  // Returns the time of the next picture in milliseconds.
+  int Time() const { return static_cast<int>(std::lround(milliseconds * pictures)); }
 
   Error Begin(int first_width, int first_height) {
     if (Error error = Check(path, first_width, first_height)) return error;
@@ -53,9 +56,10 @@ struct WebpWriter::State {
   }
 };
 
-WebpWriter::WebpWriter(std::string path, int quality) : state_(new State) {
+WebpWriter::WebpWriter(std::string path, int quality, double milliseconds) : state_(new State) {
   state_->path = std::move(path);
   state_->quality = quality;
+  state_->milliseconds = milliseconds;
 }
 
 WebpWriter::~WebpWriter() { WebPAnimEncoderDelete(state_->encoder); }
@@ -81,7 +85,7 @@ Error WebpWriter::Add(const Image& picture) {
   frame.use_argb = 1;
   const bool added =
       WebPPictureImportRGB(&frame, picture.pixels.data(), static_cast<int>(picture.stride())) &&
-      WebPAnimEncoderAdd(state.encoder, &frame, kMilliseconds * state.pictures, &config);
+      WebPAnimEncoderAdd(state.encoder, &frame, state.Time(), &config);
   const WebPEncodingError code = frame.error_code;
   WebPPictureFree(&frame);
   if (added) {
@@ -96,7 +100,7 @@ Error WebpWriter::Add(const Image& picture) {
 Result<Bytes> WebpWriter::Finish(const Metadata& metadata) {
   State& state = *state_;
   Data coded, whole;
-  if (!WebPAnimEncoderAdd(state.encoder, nullptr, kMilliseconds * state.pictures, nullptr) ||
+  if (!WebPAnimEncoderAdd(state.encoder, nullptr, state.Time(), nullptr) ||
       !WebPAnimEncoderAssemble(state.encoder, &coded.data)) {
     return Failed(state.path, WebPAnimEncoderGetError(state.encoder));
   }
