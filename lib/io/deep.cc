@@ -56,7 +56,7 @@ template <class Byte>
 auto* WordsOf(const ImagePlanes<Byte>& image, int32_t x, int32_t y) {
   using Word = std::conditional_t<std::is_const_v<Byte>, const uint16_t, uint16_t>;
   return reinterpret_cast<Word*>(image.planes[0] + static_cast<size_t>(y) * image.strides[0]) +
-         static_cast<size_t>(x) * (image.step / 2);
+         static_cast<size_t>(x) * (image.is_yuv ? 1 : image.step / 2);
 }
 
 constexpr bool IsHalf(int32_t format) {
@@ -113,7 +113,6 @@ auto* ChromaOf(const ImagePlanes<Byte>& image, int32_t x, int32_t y) {
   ImagePlanes<Byte> chroma = image;
   chroma.planes[0] = image.planes[1];
   chroma.strides[0] = image.strides[1];
-  chroma.step = 2;
   return WordsOf(chroma, x / 2 * 2, image.format == STARFOCUS_FORMAT_P010 ? y / 2 : y);
 }
 
