@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Three fuzz targets of files that a decoder of photos does not read: `files` for maps in PFM, NPY,
-// NPZ and TIFF, pictures in PNG, PPM and JPEG, and small texts; `folder` for light-field folders,
+// NPZ and TIFF, pictures in PNG, PPM and JPEG, Y4M streams, and small texts; `folder` for light-field folders,
 // whose files and contents the input selects; and `layouts` for the names of views and the texts
 // beside them, and for the segments of JPEG files. Each target is built from this file with its
 // name in STARFOCUS_FUZZ_TARGET.
@@ -26,6 +26,7 @@
 #include "platform/readers/key_values.h"
 #include "platform/readers/multi_picture.h"
 #include "platform/readers/view_array.h"
+#include "platform/y4m.h"
 #include "tests/fuzz/input.h"
 #include "tests/support/temp_folder.h"
 
@@ -66,6 +67,17 @@ void CheckFile(const uint8_t* data, size_t size) {
   if (const auto levels = DecodeLevels("levels", bytes)) {
     CheckSize(*levels);
     for (const float level : levels->values) Must(!(level < 0) && !(level > 1));
+  }
+  Y4mReader stream;
+  starfocus::Bytes planes;
+  bool has_frame = !stream.Open(file.path());
+  while (has_frame) {
+    const auto has = stream.Next(&planes);
+    has_frame = has && *has;
+    if (!has_frame) break;
+    const PlanarImage planar = ToPlanar(stream.header(), planes);
+    Must(EncodeY4mFrame(stream.header().Written(), planar).size() > planar.luma_samples());
+    Must(Narrow(planar).samples.size() <= planar.samples.size());
   }
   const auto depth = DecodeDepthFile("depth", Alpha::kTransparent, bytes);
   if (depth) CheckSize(depth->map);
