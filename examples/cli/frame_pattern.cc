@@ -116,7 +116,7 @@ Result<std::vector<std::string>> PairWithPattern(const std::vector<std::string>&
   for (const std::string& frame : frames) {
     const NumberedName name = ParseNumberedName(fs::path(frame).stem().string());
     const std::string last = name.numbers.empty() ? "" : name.numbers.back();
-    const bool has_number = !last.empty() && last.size() <= 18;
+    const bool has_number = !name.numbers.empty() && last.size() <= 18;
     const auto file = has_number ? files->find(std::strtoull(last.c_str(), nullptr, 10))
                                  : files->end();
     if (file == files->end()) {

@@ -4,32 +4,25 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <system_error>
 #include <vector>
 
 #include "examples/cli/clip_output.h"
 #include "examples/cli/commands.h"
 #include "examples/cli/engine_run.h"
-#include "examples/cli/estimate_run.h"
-#include "examples/cli/frames.h"
-#include "examples/cli/input.h"
 #include "examples/cli/lens_keys.h"
 #include "examples/cli/refocus_output.h"
 #include "examples/cli/refocus_plan.h"
 #include "examples/cli/stages.h"
-#include "examples/cli/stream_clip.h"
+#include "examples/cli/video_clip.h"
 #include "examples/command_line/program.h"
 #include "platform/clock.h"
 #include "platform/console.h"
-#include "platform/folder.h"
 #include "platform/helper/decoder_threads.h"
 #include "platform/image_io.h"
 #include "platform/standard_stream.h"
-#include "platform/text.h"
 #include "platform/y4m.h"
 
 namespace starfocus {
@@ -37,46 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct VideoOptions {
-  std::vector<std::string> inputs;
-  InputOptions input;  // options of each input
-  std::string out, report;
-  LensOptions lens;
-  LensKeyOptions keys;
-  MapOptions map;
-};
-
-// Frames of a video and their common properties.
-struct Video {
-  bool is_stream = false;            // true: the frames are those of `stream`; false: of `sources`
-  StreamClip stream;
-  std::vector<FrameSource> sources;
-  MapSurvey survey;  // of the depth maps of all frames
-  KeptPictures computed;
-  FrameFolders converted;
-  std::vector<FrameFiles> frames;  // frames that are open, in the order of `sources`
-  int width = 0, height = 0;
-  Positions views;
-  starfocus_disparity_stats stats = {};  // over all frames
-  double max_blur = 0;
-  std::vector<FocusKey> focus_keys;
-  std::vector<ApertureKey> aperture_keys;
-
-  // Returns the name of the first frame, for notes about all frames.
-  const std::string& first() const { return is_stream ? stream.where() : sources[0].path; }
-  // Returns the number of frames; 0: unknown.
-  size_t count() const { return is_stream ? stream.maps() : sources.size(); }
-};
-
 std::string PicturePath(const std::string& folder, const std::string& picture) {
   return (fs::path(folder) / picture).string();
-}
-
-// Returns the name of the picture of a frame of a stream.
-std::string NumberedPicture(size_t frame) {
-  char name[40];
-  std::snprintf(name, sizeof name, "frame_%04zu.png", frame);
-  return name;
 }
 
 // Returns the input files that no output may overwrite.
@@ -148,263 +103,13 @@ Error CheckOutputs(const VideoOptions& options, const Video& video) {
   return !error ? CheckApart(outputs, {paths, FilesOf(options, video)}) : error;
 }
 
-// Reads the keys, and checks that no other option sets what they set.
-Error ReadLensKeys(const VideoOptions& options, Video* video) {
-  const LensOptions& lens = options.lens;
-  if (!options.keys.focus.empty() && (lens.focus || lens.focus_at || lens.focus_range)) {
-    const char* other = lens.focus ? "--focus" : lens.focus_at ? "--focus-at" : "--focus-range";
-    return Error::Usage("--focus-keys", std::string("either --focus-keys or ") + other, "both");
-  }
-  const ApertureOptions& fixed = lens.aperture;
-  if (!options.keys.aperture.empty() && (fixed.aperture || fixed.f_stop || fixed.strength)) {
-    const char* other = fixed.aperture ? "--aperture" : fixed.f_stop ? "--f-stop" : "--strength";
-    return Error::Usage("--aperture-keys", std::string("either --aperture-keys or ") + other,
-                        "both");
-  }
-  if (Error error = ReadFocusKeys(options.keys.focus).MoveTo(&video->focus_keys)) return error;
-  return ReadApertureKeys(options.keys.aperture).MoveTo(&video->aperture_keys);
-}
-
-Error CheckKeyFrames(const Video& video) {
-  if (video.count() == 0) return {};
-  Error error;
-  if (!video.focus_keys.empty()) {
-    const FocusKey& last = video.focus_keys.back();
-    error = CheckLastKey("--focus-keys", last.frame, last.text, video.count());
-  }
-  if (!error && !video.aperture_keys.empty()) {
-    const ApertureKey& last = video.aperture_keys.back();
-    error = CheckLastKey("--aperture-keys", last.frame, last.text, video.count());
-  }
-  return error;
-}
-
-Error CheckSize(const std::string& where, const FloatMap& map, const Video& video) {
-  if (map.width == video.width && map.height == video.height) return {};
-  return Expected(where,
-                  SizeText(video.width, video.height) + " pixels, the size of the first frame",
-                  SizeText(map.width, map.height));
-}
-
-// Measures the map of a frame, after filling its holes if requested.
-Result<starfocus_disparity_stats> Prepare(const VideoOptions& options, const std::string& where,
-                                          FloatMap* map) {
-  if (options.map.fill) {
-    if (Error error = FillHoles(where, map)) return error;
-  }
-  return PrepareDisparity(where, *map);
-}
-
-// Sets the aperture of all frames, or of each key, from the lens of the first frame.
-Error PlanApertures(const VideoOptions& options, const Capture& first, LensPlan* plan,
-                    Video* video) {
-  if (video->aperture_keys.empty()) {
-    return PlanAperture(options.lens.aperture, first).MoveTo(&plan->aperture);
-  }
-  double widest = -1;
-  for (ApertureKey& key : video->aperture_keys) {
-    if (key.options.f_stop) key.options.widest = options.lens.aperture.widest;
-    const Result<ApertureChoice> choice = PlanAperture(key.options, first);
-    if (!choice) return choice.error();
-    key.radius = choice->radius;
-    if (key.radius <= widest) continue;
-    widest = key.radius;
-    plan->aperture = *choice;
-    plan->aperture.option = "--aperture-keys";
-    plan->aperture.value = key.text;
-  }
-  return {};
-}
-
-// Finds the disparities of the keys that name a pixel of the frame.
-Error FindKeys(size_t frame, const std::string& where, const FloatMap& map, Video* video) {
-  for (FocusKey& key : video->focus_keys) {
-    if (key.frame != frame || !key.at) continue;
-    const Result<std::optional<double>> focus =
-        FocusOfPixel("--focus-keys", *key.at, video->width, video->height, map);
-    if (!focus) return focus.error();
-    if (!*focus) return Expected(where, "known disparities around " + key.text, "none");
-    key.disparity = **focus;
-  }
-  return {};
-}
-
-// Sets the focus of all frames from the first frame, unless there are keys.
-Error ChooseFirstFocus(const std::string& input, const DefaultFocus& focus, const FloatMap& map,
-                       LensPlan* plan, Video* video) {
-  if (!video->focus_keys.empty()) return {};
-  if (plan->focus_option.empty()) {
-    TellFocus(input, focus);
-    UseFocus(focus, plan);
-  }
-  if (!plan->foci.empty()) return {};
-  const Result<std::optional<double>> found =
-      FocusOfPixel("--focus-at", {plan->x, plan->y}, video->width, video->height, map);
-  if (!found) return found.error();
-  if (!*found) return Expected(input, "known disparities around the focus", "none");
-  plan->foci = {**found};
-  return {};
-}
-
-// Opens a frame. The first frame sets the aperture and the views of all frames.
-Result<Frame> OpenFrame(const VideoOptions& options, const FrameSource& source, LensPlan* plan,
-                        Video* video) {
-  InputOptions one = OptionsOf(options.input, source);
-  one.kept = &video->computed;
-  one.map.clip = &video->survey;
-  Result<Capture> capture = ReadInput(one);
-  if (!capture) return capture.error();
-  TellNotes(*capture);
-  TellLost(*capture);
-  const bool is_first = video->frames.empty();
-  if (is_first) {
-    if (Error error = PlanApertures(options, *capture, plan, video)) return error;
-  }
-  Result<Frame> frame = video->converted.Open(
-      options.map, is_first ? plan->options.views : video->views, plan->options.threads, &*capture);
-  if (!frame) return frame;
-  const auto chosen =
-      ChooseViewFiles(frame->files.folder, is_first ? plan->options.views : video->views);
-  if (!chosen) return chosen.error();
-  if (!is_first) return frame;
-  for (const ViewFile& file : *chosen) video->views.push_back(file.position);
-  if (Error error = CheckRenderer(source.path, *plan, video->views)) return error;
-  return frame;
-}
-
-// Adds a frame. The first frame sets the size and the focus of all frames.
-Error AddFrame(const VideoOptions& options, const std::string& input, Frame frame, LensPlan* plan,
-               Video* video) {
-  const bool is_first = video->frames.empty();
-  if (is_first) video->width = frame.map.width, video->height = frame.map.height;
-  if (Error error = CheckSize(input, frame.map, *video)) return error;
-  if (!is_first && frame.files.is_linear != video->frames[0].is_linear) {
-    return Expected(input, "light coded as in the first frame",
-                    frame.files.is_linear ? "linear light" : "codes that are not linear");
-  }
-  const Result<starfocus_disparity_stats> stats = Prepare(options, frame.files.where, &frame.map);
-  if (!stats) return stats.error();
-  Error error = FindKeys(video->frames.size(), input, frame.map, video);
-  if (!error && is_first) {
-    error = ChooseFirstFocus(input, frame.focus, frame.map, plan, video);
-    video->stats = *stats;
-  }
-  if (error) return error;
-  video->stats.min = std::min(video->stats.min, stats->min);
-  video->stats.max = std::max(video->stats.max, stats->max);
-  video->frames.push_back(std::move(frame.files));
-  return {};
-}
-
-// Opens all frames and measures their maps.
-Error ScanFiles(const VideoOptions& options, LensPlan* plan, Video* video) {
-  InputOptions input = options.input;
-  input.kept = &video->computed;
-  const auto open = [&](size_t frame, const MapSurvey* clip) {
-    InputOptions one = OptionsOf(input, video->sources[frame]);
-    one.map.clip = clip;
-    return ReadInput(one);
-  };
-  if (Error error = SurveyClip(video->sources.size(), open).MoveTo(&video->survey)) return error;
-  for (const FrameSource& source : video->sources) {
-    Result<Frame> frame = OpenFrame(options, source, plan, video);
-    if (!frame) return frame.error();
-    if (Error error = AddFrame(options, source.path, std::move(*frame), plan, video)) return error;
-  }
-  return {};
-}
-
-// Measures a map of a stream. The first map sets the focus and the aperture of all frames.
-Error AddMap(const VideoOptions& options, size_t frame, const Capture& map, LensPlan* plan,
-             Video* video) {
-  const bool is_first = frame == 0;
-  const FloatMap& disparity = map.light_field.disparity;
-  Result<starfocus_disparity_stats> stats = PrepareDisparity(map.path, disparity);
-  if (!stats) return stats.error();
-  if (WillRepair(options.map, map)) {
-    stats->min = std::max(stats->min - kRepairReach, -STARFOCUS_MAX_DISPARITY);
-    stats->max = std::min(stats->max + kRepairReach, STARFOCUS_MAX_DISPARITY);
-  }
-  TellNotes(map);
-  Error error = FindKeys(frame, map.path, disparity, video);
-  if (!error && is_first) {
-    video->stats = *stats;
-    error = PlanApertures(options, map, plan, video);
-    const DefaultFocus focus = FindDefaultFocus(map);
-    if (!error) error = ChooseFirstFocus(video->stream.where(), focus, disparity, plan, video);
-  }
-  video->stats.min = std::min(video->stats.min, stats->min);
-  video->stats.max = std::max(video->stats.max, stats->max);
-  return error;
-}
-
-// Measures the maps of a stream.
-Error ScanStream(const VideoOptions& options, LensPlan* plan, Video* video) {
-  video->width = video->stream.header().width;
-  video->height = video->stream.header().height;
-  video->views = {{0, 0}};
-  const Positions& wanted = plan->options.views;
-  if (wanted.size() > 1) {
-    return Error::Usage("--views", "1, because a stream has one view",
-                        std::to_string(wanted.size()) + " views");
-  }
-  if (Error error = CheckRenderer(video->stream.where(), *plan, video->views)) return error;
-  return video->stream.Survey([&](size_t frame, const Capture& map) {
-    return AddMap(options, frame, map, plan, video);
-  });
-}
-
-// Finds all frames or maps, and fits the lens to them.
-Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
-  Error error = video->is_stream ? ScanStream(options, plan, video)
-                                 : ScanFiles(options, plan, video);
-  if (error) return error;
-  if (!video->focus_keys.empty()) {
-    plan->focus_option = "--focus-keys";
-    plan->foci.clear();
-    for (const FocusKey& key : video->focus_keys) plan->foci.push_back(key.disparity);
-  }
-  if (Error failed = ChooseBlur(video->stats, plan).MoveTo(&video->max_blur)) return failed;
-  TellAperture(video->first(), plan->aperture);
-  TellBlurred(video->first(), video->stats, SharpRadius(video->width, video->height), *plan);
-  return {};
-}
-
-// Stage: reads a frame with its map.
-Result<bool> Read(const VideoOptions& options, Video* video, ClipFrame* frame) {
-  const size_t index = frame->index;
-  Capture& capture = frame->capture;
-  if (video->is_stream) {
-    frame->where = video->stream.where() + ", frame " + std::to_string(index);
-    frame->picture = NumberedPicture(index);
-    return video->stream.Next(&capture);
-  }
-  if (index == video->frames.size()) return false;
-  const FrameFiles& files = video->frames[index];
-  frame->where = video->sources[index].path;
-  frame->picture = video->sources[index].picture;
-  Error error = LoadLightField(files.folder, video->views).MoveTo(&capture.light_field);
-  if (error) return error;
-  capture.light_field.is_linear = files.is_linear;
-  capture.metadata.icc = files.icc;
-  capture.metadata.colours = files.colours;
-  if (Error wrong = CheckSize(frame->where, capture.light_field.disparity, *video)) return wrong;
-  error = Prepare(options, files.where, &capture.light_field.disparity).error();
-  if (error) return error;
-  return true;
-}
-
-// Stage: fits the map of a frame of a stream to the frame, and repairs it. Maps of files have been
-// repaired when the files were opened.
-Result<bool> Repair(const VideoOptions& options, const LensPlan& plan, ClipFrame* frame) {
-  Capture& capture = frame->capture;
-  Error error = LoadInput({}, plan.options.threads, &capture);
-  if (!error) error = CareForMap(options.map, plan.options.threads, &capture);
-  if (!error) {
-    error = Prepare(options, frame->where, &capture.light_field.disparity).error();
-  }
-  if (error) return error;
-  return true;
+// Returns the header of a stream of the pictures.
+Y4mHeader HeaderOf(const Video& video) {
+  if (video.is_stream) return video.stream.header().Written();
+  Y4mHeader header;
+  header.width = video.width;
+  header.height = video.height;
+  return header;
 }
 
 // Stage: refocuses the frames, and copies unchanged blocks from the previous picture.
@@ -462,17 +167,6 @@ class Refocusing {
     return task;
   }
 
- public:
-  // Returns the header of the stream of the frames.
-  static Y4mHeader HeaderOf(const Video& video) {
-    if (video.is_stream) return video.stream.header().Written();
-    Y4mHeader header;
-    header.width = video.width;
-    header.height = video.height;
-    return header;
-  }
-
- private:
   const VideoOptions& options_;
   const LensPlan& plan_;
   const Video& video_;
@@ -494,12 +188,11 @@ Result<Written> RefocusFrames(const VideoOptions& options, const LensPlan& plan,
                               double start) {
   Written written;
   Refocusing refocusing(options, plan, *video);
-  const std::unique_ptr<ClipOutput> output =
-      MakeClipOutput(options.out, Refocusing::HeaderOf(*video));
+  const std::unique_ptr<ClipOutput> output = MakeClipOutput(options.out, HeaderOf(*video));
   std::vector<Stage> stages;
-  stages.emplace_back([&](ClipFrame* frame) { return Read(options, video, frame); });
+  stages.emplace_back([&](ClipFrame* frame) { return ReadFrame(options, video, frame); });
   if (video->is_stream) {
-    stages.emplace_back([&](ClipFrame* frame) { return Repair(options, plan, frame); });
+    stages.emplace_back([&](ClipFrame* frame) { return RepairFrame(options, plan, frame); });
   }
   // A stage that stabilises the maps belongs here: it gets the frames in order, with the centre view
   // and the map in frame->capture.light_field.
@@ -518,13 +211,6 @@ Result<Written> RefocusFrames(const VideoOptions& options, const LensPlan& plan,
   return written;
 }
 
-// Finds the inputs: a stream and its maps, or the files of the frames.
-Error FindInput(const VideoOptions& options, Video* video) {
-  video->is_stream = IsStream(options.inputs);
-  if (video->is_stream) return video->stream.Open(options.inputs[0], options.input);
-  return FindFrames(options.inputs, options.input, options.out).MoveTo(&video->sources);
-}
-
 Error Run(const VideoOptions& options) {
   SetDecoderThreads(options.lens.threads);
   const double start = Seconds();
@@ -535,7 +221,7 @@ Error Run(const VideoOptions& options) {
   if (!error) error = FindInput(options, &video);
   if (!error) error = CheckOutputs(options, video);
   if (!error) error = CheckKeyFrames(video);
-  if (!error) error = Scan(options, &*plan, &video);
+  if (!error) error = ScanVideo(options, &*plan, &video);
   if (error) return error;
   const Result<Written> written = RefocusFrames(options, *plan, &video, start);
   if (!written) return written.error();
@@ -544,7 +230,8 @@ Error Run(const VideoOptions& options) {
   if (error) return error;
   if (video.is_stream) video.stream.TellEnd();
   TellLine(OutputName(options.out) + ": " + std::to_string(written->frames) +
-           (written->frames == 1 ? " picture, " : " pictures, ") + LensText(*plan));
+           (written->frames == 1 ? " picture, " : " pictures, ") + LensText(*plan) +
+           (video.aperture_keys.size() > 1 ? " at the widest" : ""));
   return {};
 }
 
@@ -558,30 +245,43 @@ Command VideoCommand() {
       {},
       [options] { return Run(*options); },
       {"starfocus video frames -o out --focus 2",
-       "starfocus video rgb --depth depth -o out --near white --focus-at 320,240"},
+       "starfocus video rgb --depth depth -o out --near white --focus-at 320,240",
+       "starfocus video 'in/%05d.png' --depth 'd/%05d.png' -o out.webp --focus-keys '0:at=422,414 "
+       "48:disparity=-3.2'",
+       "ffmpeg -i in.mp4 -f yuv4mpegpipe - | starfocus video - --depth 'd/%05d.png' -o - | ffmpeg "
+       "-i - out.mp4"},
       "Frames must have the same size and are taken in the order of SRC. If SRC is one folder\n"
       "that is not a light field, the frames are the light fields or photos in this folder,\n"
-      "sorted by the numbers in their names. Depth maps without distances get one scale and one\n"
-      "near end for all frames. If --depth or --matte is a folder, its pictures are paired with\n"
-      "the frames by name, or else by number. Unless --focus or --focus-range is given, the first\n"
-      "frame determines the focus of all frames: the focus at the pixel of --focus-at, or else\n"
-      "the default focus. Modes frame and benchmark choose one number of views for all frames.",
+      "sorted by the numbers in their names; a pattern such as in/%05d.png means its files.\n"
+      "Depth maps without distances get one scale and one near end for all frames. If --depth or\n"
+      "--matte is a folder or a pattern, its pictures are paired with the frames by name or\n"
+      "number, and with the frames of a Y4M stream in their order; --depth may be a Y4M file, too.\n"
+      "Unless --focus, --focus-range or --focus-keys is given, the first frame determines the\n"
+      "focus of all frames: the focus at the pixel of --focus-at, or else the default focus.\n"
+      "Modes frame and benchmark choose one number of views for all frames.",
       {{"Input and output",
-        {{"SRC", "Frames, or one folder that contains the frames"},
-         {"--output", "Folder for the pictures"},
+        {{"SRC", "Frames, one folder or pattern of frames, or a Y4M stream (-)"},
+         {"--output", "Folder for the pictures, FILE.webp, or - for a Y4M stream"},
          {"--depth", "Depth of the frames, if it is separate"},
          {"--matte", "Mattes of the frames, if they have no depth"},
          {"--near", "Shade that is near in depth pictures: white or black"},
          {"--report", "JSON file with the measurements of each frame"}}},
-       {"Focus and lens, the same for all frames",
+       {"Focus and lens",
         {{"--focus-at", "Pixel in focus in the first frame"},
          {"--focus", "Disparity in focus"},
+         {"--focus-keys", "Focus of some frames: '0:at=422,414 48:disparity=-3.2'"},
+         {"--aperture-keys", "Aperture of some frames: '0:f-stop=8 48:f-stop=1.8'"},
          {"--f-stop", "F-stop, such as 2.8; a smaller one blurs more"},
          {"--strength", "Percentage of the blur, 0 to 100"}}}}};
   AddInputOptions(&command, &options->input, &options->inputs);
+  command.options[0].help =  // of SRC
+      "One or more light-field folders, folders of views with another layout, or depth photos; one "
+      "folder or pattern of them; or a Y4M stream in a file, or - for standard input";
   AddOptions(
       {
-          {"-o,--output", "DIR", "Folder to write a PNG picture with the name of each input into",
+          {"-o,--output", "DIR|FILE|-",
+           "Folder to write a PNG picture with the name of each input into, .webp file for an "
+           "animation, or - to write a Y4M stream to standard output",
            &options->out, Use::kRequired},
       },
       &command);

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// The frames of a video, for the command `video`: opens the files of the frames or a stream,
+// measures all maps, and plans the lens of each frame before the first frame is refocused.
+#ifndef STARFOCUS_EXAMPLES_CLI_VIDEO_CLIP_H_
+#define STARFOCUS_EXAMPLES_CLI_VIDEO_CLIP_H_
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "examples/cli/frames.h"
+#include "examples/cli/input_options.h"
+#include "examples/cli/lens_keys.h"
+#include "examples/cli/refocus_plan.h"
+#include "examples/cli/stages.h"
+#include "examples/cli/stream_clip.h"
+#include "platform/result.h"
+
+namespace starfocus {
+
+struct VideoOptions {
+  std::vector<std::string> inputs;
+  InputOptions input;  // options of each input
+  std::string out, report;
+  LensOptions lens;
+  LensKeyOptions keys;
+  MapOptions map;
+};
+
+// Frames of a video and their common properties.
+struct Video {
+  bool is_stream = false;            // true: the frames are those of `stream`; false: of `sources`
+  StreamClip stream;
+  std::vector<FrameSource> sources;
+  MapSurvey survey;  // of the depth maps of all frames
+  KeptPictures computed;
+  FrameFolders converted;
+  std::vector<FrameFiles> frames;  // frames that are open, in the order of `sources`
+  int width = 0, height = 0;
+  Positions views;
+  starfocus_disparity_stats stats = {};  // over all frames
+  double max_blur = 0;
+  std::vector<FocusKey> focus_keys;
+  std::vector<ApertureKey> aperture_keys;
+
+  // Returns the name of the first frame, for notes about all frames.
+  const std::string& first() const { return is_stream ? stream.where() : sources[0].path; }
+  // Returns the number of frames; 0: unknown.
+  size_t count() const { return is_stream ? stream.maps() : sources.size(); }
+};
+
+// Returns the name of the picture of a frame of a stream.
+std::string NumberedPicture(size_t frame);
+
+// Reads the keys, and checks that no other option sets what they set.
+Error ReadLensKeys(const VideoOptions& options, Video* video);
+
+// Finds the inputs: a stream and its maps, or the files of the frames.
+Error FindInput(const VideoOptions& options, Video* video);
+
+// Returns an error if a key is behind the last frame. The inputs must have been found.
+Error CheckKeyFrames(const Video& video);
+
+// Opens all frames, or all maps of a stream, and fits the lens to them.
+Error ScanVideo(const VideoOptions& options, LensPlan* plan, Video* video);
+
+// Stage: reads a frame with its map.
+Result<bool> ReadFrame(const VideoOptions& options, Video* video, ClipFrame* frame);
+
+// Stage: fits the map of a frame of a stream to the frame, and repairs it. Maps of files have been
+// repaired when the files were opened.
+Result<bool> RepairFrame(const VideoOptions& options, const LensPlan& plan, ClipFrame* frame);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_VIDEO_CLIP_H_
