@@ -70,9 +70,7 @@ struct PlanarImage {
   size_t luma_samples() const { return size_t(width) * size_t(height); }
   size_t chroma_samples() const { return size_t(chroma_width()) * size_t(chroma_height()); }
   // Makes the samples of the size.
-  void Allocate() {
-    samples.resize((luma_samples() + 2 * chroma_samples()) * (is_deep ? 2 : 1));
-  }
+  void Allocate() { samples.resize((luma_samples() + 2 * chroma_samples()) * (is_deep ? 2 : 1)); }
 };
 
 }  // namespace starfocus

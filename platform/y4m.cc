@@ -20,9 +20,10 @@ namespace {
 
 constexpr char kY4mMagic[] = "YUV4MPEG2";
 constexpr char kFrameLine[] = "FRAME";
-constexpr size_t kMostHeaderLine = 1024;               // bytes of a header line
+constexpr size_t kMostHeaderLine = 1024;                // bytes of a header line
 constexpr int64_t kMostFramePixels = int64_t{1} << 28;  // as of other pictures (image_io.h)
-constexpr size_t kReadAtOnce = size_t{8} << 20;  // bytes that are allocated before they have been read
+constexpr size_t kReadAtOnce = size_t{8}
+                               << 20;  // bytes that are allocated before they have been read
 
 struct Chroma {
   const char* name;
@@ -30,16 +31,16 @@ struct Chroma {
 };
 
 // The positions of 4:2:0 chroma samples (jpeg, mpeg2, paldv) are kept, but read alike.
-constexpr Chroma kChromas[] = {
-    {"420jpeg", 2, 2, 8}, {"420mpeg2", 2, 2, 8}, {"420paldv", 2, 2, 8}, {"420", 2, 2, 8},
-    {"422", 2, 1, 8},     {"444", 1, 1, 8},      {"mono", 0, 0, 8},     {"420p10", 2, 2, 10},
-    {"422p10", 2, 1, 10}, {"444p10", 1, 1, 10},  {"mono10", 0, 0, 10}};
+constexpr Chroma kChromas[] = {{"420jpeg", 2, 2, 8}, {"420mpeg2", 2, 2, 8}, {"420paldv", 2, 2, 8},
+                               {"420", 2, 2, 8},     {"422", 2, 1, 8},      {"444", 1, 1, 8},
+                               {"mono", 0, 0, 8},    {"420p10", 2, 2, 10},  {"422p10", 2, 1, 10},
+                               {"444p10", 1, 1, 10}, {"mono10", 0, 0, 10}};
 
 // Parses a whole number from 1 to 65535. Returns 0 for other texts.
 int SizeOf(const std::string& text) {
-  const bool digits = !text.empty() && text.size() <= 5 &&
-                      std::all_of(text.begin(), text.end(),
-                                  [](char c) { return c >= '0' && c <= '9'; });
+  const bool digits =
+      !text.empty() && text.size() <= 5 &&
+      std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
   const int value = digits ? std::atoi(text.c_str()) : 0;
   return value <= kMaxPictureSize ? value : 0;
 }
@@ -209,7 +210,8 @@ Result<Y4mHeader> ParseY4mHeader(const std::string& where, const std::string& li
     }
     if (Error error = SetField(where, word, &header)) return error;
   }
-  if (header.width == 0 || header.height == 0) return Invalid(where, "a width and a height", "none");
+  if (header.width == 0 || header.height == 0)
+    return Invalid(where, "a width and a height", "none");
   if (int64_t{header.width} * header.height > kMostFramePixels) {
     return Invalid(where, "at most " + std::to_string(kMostFramePixels) + " pixels",
                    SizeText(header.width, header.height));
@@ -262,8 +264,9 @@ Result<bool> Y4mReader::ReadLine(const char* what, std::string* line) {
     if (c == EOF || line->size() == kMostHeaderLine) {
       // Data without a magic word are not a damaged stream, but another kind of file.
       if (line->rfind(kY4mMagic, 0) != 0 && frames_ == 0 && header_.width == 0) return true;
-      return Expected(where_, std::string(what) + " of at most " + std::to_string(kMostHeaderLine) +
-                                  " bytes with a line break",
+      return Expected(where_,
+                      std::string(what) + " of at most " + std::to_string(kMostHeaderLine) +
+                          " bytes with a line break",
                       c == EOF ? "the end of the stream" : "more");
     }
     line->push_back(static_cast<char>(c));
@@ -280,8 +283,7 @@ Result<bool> Y4mReader::Next(std::vector<uint8_t>* planes) {
   const Result<bool> has = ReadLine("a line FRAME", &line);
   if (!has || !*has) return has;
   if (line != kFrameLine && line.rfind(std::string(kFrameLine) + " ", 0) != 0) {
-    return Expected(where_, "the line FRAME before frame " + std::to_string(frames_),
-                    "other data");
+    return Expected(where_, "the line FRAME before frame " + std::to_string(frames_), "other data");
   }
   const size_t bytes = FrameBytes(header_);
   planes->clear();
@@ -351,8 +353,7 @@ std::vector<float> LumaLevels(const Y4mHeader& header, const std::vector<uint8_t
   *largest = full ? (256 * scale) - 1 : 219 * scale;
   std::vector<float> levels(size_t(header.width) * size_t(header.height));
   for (size_t i = 0; i < levels.size(); ++i) {
-    const int code =
-        scale > 1 ? Get<uint16_t>(planes.data(), i) : Get<uint8_t>(planes.data(), i);
+    const int code = scale > 1 ? Get<uint16_t>(planes.data(), i) : Get<uint8_t>(planes.data(), i);
     levels[i] = static_cast<float>(std::clamp(code - black, 0, *largest));
   }
   return levels;
@@ -361,7 +362,8 @@ std::vector<float> LumaLevels(const Y4mHeader& header, const std::vector<uint8_t
 std::vector<uint8_t> EncodeY4mFrame(const Y4mHeader& header, const PlanarImage& planar) {
   std::vector<uint8_t> bytes(kFrameLine, kFrameLine + sizeof(kFrameLine) - 1);
   bytes.push_back('\n');
-  const size_t luma = planar.luma_samples(), chroma = header.across == 0 ? 0 : planar.chroma_samples();
+  const size_t luma = planar.luma_samples(),
+               chroma = header.across == 0 ? 0 : planar.chroma_samples();
   const uint8_t* const from = planar.samples.data();
   if (!planar.is_deep) {
     bytes.insert(bytes.end(), from, from + luma + 2 * chroma);

@@ -25,8 +25,8 @@ namespace {
 // True while a frame is written, and after a signal that ends the program.
 std::atomic<bool> writes_frame{false}, is_ending{false};
 
-// Waits for the end of the frame that another thread writes, at most two seconds, because the reader
-// of a pipe may have stopped. Runs in a signal handler.
+// Waits for the end of the frame that another thread writes, at most two seconds, because the
+// reader of a pipe may have stopped. Runs in a signal handler.
 void WaitForFrame(const void*) {
   is_ending = true;
   for (int k = 0; k < 2000 && writes_frame; ++k) {
@@ -142,16 +142,15 @@ Error CheckClipName(const std::string& out) {
   if (!is_video && LowerExtension(out) != ".y4m") return {};
   std::error_code ignored;
   if (std::filesystem::is_directory(out, ignored)) return {};  // CheckFolderOutput explains this
-  return Error::Usage(
-      "--output",
-      std::string("a folder, a .webp file, or - for a stream that ") +
-          (is_video ? "ffmpeg encodes: starfocus video ... -o - | ffmpeg -i - " +
-                          std::string(LowerExtension(out) == ".gif"
-                                          ? ""
-                                          : "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' ")
-                    : "the shell stores: starfocus video ... -o - > ") +
-          ShellQuoted(out),
-      out);
+  return Error::Usage("--output",
+                      std::string("a folder, a .webp file, or - for a stream that ") +
+                          (is_video ? "ffmpeg encodes: starfocus video ... -o - | ffmpeg -i - " +
+                                          std::string(LowerExtension(out) == ".gif"
+                                                          ? ""
+                                                          : "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' ")
+                                    : "the shell stores: starfocus video ... -o - > ") +
+                          ShellQuoted(out),
+                      out);
 }
 
 std::unique_ptr<ClipOutput> MakeClipOutput(const std::string& out, const Y4mHeader& header) {

@@ -18,8 +18,8 @@ enum class ClipKind { kFolder, kStream, kAnimation };
 // Returns the kind of the output that --output selects.
 ClipKind KindOfClip(const std::string& out);
 
-// Returns an error if --output is a file that `video` does not write. The error for a video contains
-// the command that makes the video with FFmpeg.
+// Returns an error if --output is a file that `video` does not write. The error for a video
+// contains the command that makes the video with FFmpeg.
 Error CheckClipName(const std::string& out);
 
 class ClipOutput {
@@ -32,8 +32,8 @@ class ClipOutput {
   virtual Error Finish() { return {}; }
 };
 
-// Makes the output `out`. `header` describes the frames of a stream, and has the duration of a frame
-// of an animation. No file or folder exists before the first frame is written.
+// Makes the output `out`. `header` describes the frames of a stream, and has the duration of a
+// frame of an animation. No file or folder exists before the first frame is written.
 std::unique_ptr<ClipOutput> MakeClipOutput(const std::string& out, const Y4mHeader& header);
 
 }  // namespace starfocus

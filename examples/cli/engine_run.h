@@ -68,8 +68,8 @@ struct EngineTask {
 };
 
 struct EngineResult {
-  Image picture;   // of 8 bits
-  DeepImage deep;  // with EngineTask::deep_picture, from which `picture` is made
+  Image picture;       // of 8 bits
+  DeepImage deep;      // with EngineTask::deep_picture, from which `picture` is made
   PlanarImage planar;  // with EngineTask::planar_picture, instead of `picture`
   starfocus_report report = starfocus::NewReport();
   starfocus_layer_report layers[STARFOCUS_LAYERS] = {};

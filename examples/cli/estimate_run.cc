@@ -311,11 +311,11 @@ Result<DisparityEstimate> RepairDisparity(const std::string& where, const LightF
   Maker maker(options.threads, "repairing disparities");
   const bool is_planar = !light_field.planar.samples.empty();
   const PlanarImage narrow = is_planar ? Narrow(light_field.planar) : PlanarImage();
-  Result<MadeMap> made = MakeMap(where,
-                                 {views, StarWithin(positions), positions, &given, range,
-                                  options.confidence, options.coverage,
-                                  is_planar ? &narrow : nullptr},
-                                 &maker);
+  Result<MadeMap> made =
+      MakeMap(where,
+              {views, StarWithin(positions), positions, &given, range, options.confidence,
+               options.coverage, is_planar ? &narrow : nullptr},
+              &maker);
   if (!made) return made.error();
   DisparityEstimate estimate;
   if (options.confidence) estimate.confidence = DrawLevels(made->confidence, views[0]);

@@ -99,8 +99,7 @@ Result<std::vector<std::string>> ListPictures(const std::string& path) {
   for (const auto& [number, file] : *files) {
     const uint64_t next = files->begin()->first + paths.size();
     if (number != next) {
-      return Expected(path, "a file with number " + std::to_string(next),
-                      "none before " + file);
+      return Expected(path, "a file with number " + std::to_string(next), "none before " + file);
     }
     paths.push_back(file);
   }
@@ -117,8 +116,8 @@ Result<std::vector<std::string>> PairWithPattern(const std::vector<std::string>&
     const NumberedName name = ParseNumberedName(fs::path(frame).stem().string());
     const std::string last = name.numbers.empty() ? "" : name.numbers.back();
     const bool has_number = !name.numbers.empty() && last.size() <= 18;
-    const auto file = has_number ? files->find(std::strtoull(last.c_str(), nullptr, 10))
-                                 : files->end();
+    const auto file =
+        has_number ? files->find(std::strtoull(last.c_str(), nullptr, 10)) : files->end();
     if (file == files->end()) {
       return Expected(frame, "a " + kind + " with the number of the frame in " + pattern, "none");
     }

@@ -19,9 +19,9 @@ bool IsFramePattern(const std::string& path);
 // Returns the files of a pattern by their numbers. Returns an error if there are none.
 Result<std::map<uint64_t, std::string>> FindPatternFiles(const std::string& pattern);
 
-// Returns the pictures that `path` stands for, in the order of their numbers: the files of a pattern
-// or of a folder, or the only file `path`. Returns an error if the pattern has a gap, because a
-// missing picture would shift all pictures that follow.
+// Returns the pictures that `path` stands for, in the order of their numbers: the files of a
+// pattern or of a folder, or the only file `path`. Returns an error if the pattern has a gap,
+// because a missing picture would shift all pictures that follow.
 Result<std::vector<std::string>> ListPictures(const std::string& path);
 
 // Returns the picture of each frame: the file of the pattern with the last number in the name of

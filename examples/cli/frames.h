@@ -28,8 +28,9 @@ struct FrameSource {
 // Returns the frames. If the only input is a folder but not a light field, the frames are the
 // photos and light fields in the folder in natural order, without the folder `out`. A row of
 // pictures with numbers in their names is a clip and not a light field. A pattern such as
-// "in/%05d.png" (frame_pattern.h) means all its files. If options.depth or options.matte is a folder
-// or a pattern, each frame gets one of its pictures. Prints other files in the folders to stderr.
+// "in/%05d.png" (frame_pattern.h) means all its files. If options.depth or options.matte is a
+// folder or a pattern, each frame gets one of its pictures. Prints other files in the folders to
+// stderr.
 Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inputs,
                                             const InputOptions& options, const std::string& out);
 
@@ -68,8 +69,8 @@ class FrameFolders {
 // Returns the options that open one frame.
 InputOptions OptionsOf(const InputOptions& options, const FrameSource& frame);
 
-// Opens a frame, whose depth map is interpreted by the figures of the clip, or by its own figures if
-// `clip` is null.
+// Opens a frame, whose depth map is interpreted by the figures of the clip, or by its own figures
+// if `clip` is null.
 using OpenMap = std::function<Result<Capture>(size_t frame, const MapSurvey* clip)>;
 
 // Opens the frames one after another. Returns an error if a frame has no depth, if its size differs

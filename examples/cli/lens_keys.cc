@@ -68,8 +68,8 @@ Error ReadKeys(const char* option, const char* form, const std::string& option_v
 // Returns the value of a frame between keys at frames `frames` with values `values`.
 double Interpolate(const std::vector<size_t>& frames, const std::vector<double>& values,
                    Easing easing, size_t frame) {
-  const auto next = static_cast<size_t>(
-      std::upper_bound(frames.begin(), frames.end(), frame) - frames.begin());
+  const auto next =
+      static_cast<size_t>(std::upper_bound(frames.begin(), frames.end(), frame) - frames.begin());
   if (next == 0) return values.front();
   if (next == frames.size()) return values.back();
   const double part = static_cast<double>(frame - frames[next - 1]) /

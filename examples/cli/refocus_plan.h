@@ -65,8 +65,8 @@ Error CheckRenderer(const std::string& where, const LensPlan& plan, const Positi
 Result<starfocus_disparity_stats> PrepareDisparity(const std::string& where, const FloatMap& map);
 
 // Returns the disparity of the surface at a pixel of a picture of `width` x `height` pixels, or
-// nullopt if the map has no known values around the pixel. The map may have another size. Returns an
-// error of the option if the pixel is outside the picture.
+// nullopt if the map has no known values around the pixel. The map may have another size. Returns
+// an error of the option if the pixel is outside the picture.
 Result<std::optional<double>> FocusOfPixel(const char* option, const Pixel& at, int width,
                                            int height, const FloatMap& map);
 

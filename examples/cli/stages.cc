@@ -32,7 +32,7 @@ class Handover {
     changed_.notify_all();
     return std::move(frame_);
   }
-  void End() { Set(&ended_); }   // after the last Put
+  void End() { Set(&ended_); }     // after the last Put
   void Stop() { Set(&stopped_); }  // after the last Take
 
  private:
@@ -124,9 +124,8 @@ Error RunStages(const std::vector<Stage>& stages, bool overlap) {
     Handover* const from = s > 0 ? &between[s - 1] : nullptr;
     Handover* const to = s + 1 < stages.size() ? &between[s] : nullptr;
     try {
-      threads.emplace_back([&stages, s, from, to, &failure] {
-        RunFrames(stages[s], from, to, &failure);
-      });
+      threads.emplace_back(
+          [&stages, s, from, to, &failure] { RunFrames(stages[s], from, to, &failure); });
     } catch (const std::system_error&) {
       failure.Set(0, Cannot("start", "a thread for each stage", "the system has too few"), nullptr);
       if (from != nullptr) from->Stop();

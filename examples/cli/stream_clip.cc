@@ -28,8 +28,9 @@ Error CheckStreamOptions(const std::string& path, const InputOptions& options) {
                         "a command");
   }
   if (options.depth.empty() && options.matte.empty()) {
-    return Error::Usage("--depth", "the depth of the frames of " + InputName(path) +
-                                       ": a folder, a pattern such as 'd/%05d.png' or a Y4M file",
+    return Error::Usage("--depth",
+                        "the depth of the frames of " + InputName(path) +
+                            ": a folder, a pattern such as 'd/%05d.png' or a Y4M file",
                         "no --depth or --matte");
   }
   for (const auto& [name, file] :

@@ -227,16 +227,15 @@ Error ScanStream(const VideoOptions& options, LensPlan* plan, Video* video) {
                         std::to_string(wanted.size()) + " views");
   }
   if (Error error = CheckRenderer(video->stream.where(), *plan, video->views)) return error;
-  return video->stream.Survey([&](size_t frame, const Capture& map) {
-    return AddMap(options, frame, map, plan, video);
-  });
+  return video->stream.Survey(
+      [&](size_t frame, const Capture& map) { return AddMap(options, frame, map, plan, video); });
 }
 
 }  // namespace
 
 Error ScanVideo(const VideoOptions& options, LensPlan* plan, Video* video) {
-  Error error = video->is_stream ? ScanStream(options, plan, video)
-                                 : ScanFiles(options, plan, video);
+  Error error =
+      video->is_stream ? ScanStream(options, plan, video) : ScanFiles(options, plan, video);
   if (error) return error;
   if (!video->focus_keys.empty()) {
     plan->focus_option = "--focus-keys";

@@ -29,7 +29,7 @@ struct VideoOptions {
 
 // Frames of a video and their common properties.
 struct Video {
-  bool is_stream = false;            // true: the frames are those of `stream`; false: of `sources`
+  bool is_stream = false;  // true: the frames are those of `stream`; false: of `sources`
   StreamClip stream;
   std::vector<FrameSource> sources;
   MapSurvey survey;  // of the depth maps of all frames

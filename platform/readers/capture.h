@@ -67,8 +67,7 @@ Result<Capture> OpenCapture(const std::string& path, const CaptureOptions& optio
 
 // Makes the capture of a photo of one view that has been read: converts its map to disparities.
 // `path` is the name of the photo, and of its map unless the map has a file of its own.
-Result<Capture> TakePhoto(const std::string& path, const CaptureOptions& options,
-                          DepthPhoto photo);
+Result<Capture> TakePhoto(const std::string& path, const CaptureOptions& options, DepthPhoto photo);
 
 // Reads the views at the positions `wanted`, or all views if `wanted` is empty. Reads the disparity
 // map and the coverage if they exist. `runner` decodes several views at a time; if `runner` is

@@ -12,7 +12,8 @@
 
 namespace starfocus {
 
-// Encodes a sequence of pictures of equal size. Several pictures form an endless animation. Only the encoded pictures are kept in memory.
+// Encodes a sequence of pictures of equal size. Several pictures form an endless animation. Only
+// the encoded pictures are kept in memory.
 class WebpWriter {
  public:
   // `path` appears only in error messages; `quality` is 1 to 100. In an animation, each picture

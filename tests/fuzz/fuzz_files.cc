@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Three fuzz targets of files that a decoder of photos does not read: `files` for maps in PFM, NPY,
-// NPZ and TIFF, pictures in PNG, PPM and JPEG, Y4M streams, and small texts; `folder` for light-field folders,
-// whose files and contents the input selects; and `layouts` for the names of views and the texts
-// beside them, and for the segments of JPEG files. Each target is built from this file with its
-// name in STARFOCUS_FUZZ_TARGET.
+// NPZ and TIFF, pictures in PNG, PPM and JPEG, Y4M streams, and small texts; `folder` for
+// light-field folders, whose files and contents the input selects; and `layouts` for the names of
+// views and the texts beside them, and for the segments of JPEG files. Each target is built from
+// this file with its name in STARFOCUS_FUZZ_TARGET.
 #include <sys/mman.h>
 #include <unistd.h>
 

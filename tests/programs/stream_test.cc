@@ -31,8 +31,9 @@ void Write(const std::string& path, const std::string& bytes) {
 
 TEST_CASE("stream: a header has its fields in any order, and the defaults of FFmpeg") {
   const Y4mHeader header =
-      ValueOf(ParseY4mHeader("in", "YUV4MPEG2 C422p10 H480 Ip A4:3 F30000:1001 XCOLORRANGE=FULL "
-                                   "W641 XYSCSS=422P10"));
+      ValueOf(ParseY4mHeader("in",
+                             "YUV4MPEG2 C422p10 H480 Ip A4:3 F30000:1001 XCOLORRANGE=FULL "
+                             "W641 XYSCSS=422P10"));
   CHECK((header.width == 641 && header.height == 480 && header.bits == 10));
   CHECK((header.across == 2 && header.down == 1 && header.range == STARFOCUS_RANGE_FULL));
   CHECK(header.Written().Line() ==
@@ -96,7 +97,8 @@ TEST_CASE("stream: chroma of all kinds becomes 4:2:0 of an odd size") {
 TEST_CASE("stream: words of 10 bits pass to the engine and back unchanged") {
   const std::string samples("\xff\x03\x40\x00\x01\x02\x03\x01\x00\x02", 10);  // Y Y Y U V
   const Y4mHeader header = ValueOf(ParseY4mHeader("in", "YUV4MPEG2 W1 H3 C420p10"));
-  const std::string four = samples.substr(0, 6) + std::string("\x11\x01\x22\x01\x33\x02\x00\x03", 8);
+  const std::string four =
+      samples.substr(0, 6) + std::string("\x11\x01\x22\x01\x33\x02\x00\x03", 8);
   const PlanarImage planar = FirstFrame("W1 H3 C420p10", four);
   CHECK(planar.is_deep);
   const std::vector<uint8_t> frame = EncodeY4mFrame(header, planar);
@@ -132,7 +134,8 @@ TEST_CASE("stream: damaged streams are errors that name the frame") {
       {"YUV4MPEG2 W2 H2 X" + std::string(3000, 'x'), "of at most 1024 bytes"},
       {header + frame + "FRAMES\n", "the line FRAME before frame 1, found other data"},
       {header + frame + "FRAME", "a line FRAME of at most 1024 bytes with a line break"},
-      {header + frame + "FRAME\n123", "expected 6 bytes of frame 1, found the end of the stream after 3"}};
+      {header + frame + "FRAME\n123",
+       "expected 6 bytes of frame 1, found the end of the stream after 3"}};
   for (const auto& [bytes, text] : kErrors) {
     CAPTURE(text);
     Write(path, bytes);
@@ -154,11 +157,12 @@ TEST_CASE("stream: a signal ends the program after a complete frame") {
       CAPTURES(number, threads);
       // The pipe is full when the signal comes, within a frame.
       const std::string call = std::string("env --default-signal=") + number + " '" +
-                               STARFOCUS_PROGRAM "' video" + frames +
-                               " -o - --focus 1 --threads " + threads;
-      REQUIRE(RunShell(folder, "(" + call + " 2>log & echo $! >id; wait $!) | { head -c 1000000 "
-                               ">out.y4m; (sleep 0.3; kill -" + number +
-                               " $(cat id)); sleep 0.3; cat >>out.y4m; }") == 0);
+                               STARFOCUS_PROGRAM "' video" + frames + " -o - --focus 1 --threads " +
+                               threads;
+      REQUIRE(RunShell(folder, "(" + call +
+                                   " 2>log & echo $! >id; wait $!) | { head -c 1000000 "
+                                   ">out.y4m; (sleep 0.3; kill -" +
+                                   number + " $(cat id)); sleep 0.3; cat >>out.y4m; }") == 0);
       const std::string out = Text(folder.file("out.y4m"));
       const size_t header = out.find('\n') + 1, frame = 6 + 640 * 360 * 3 / 2;
       CHECK((out.size() - header) % frame == 0);
@@ -176,17 +180,21 @@ TEST_SUITE("ffmpeg") {
     }
     const TempFolder folder;
     const std::string ffmpeg = "ffmpeg -v error -nostdin -y ";
-    REQUIRE(RunShell(folder, ffmpeg + "-f lavfi -i testsrc=s=161x91:r=5:d=1 -c:v ffv1 in.mkv && mkdir d && " +
-                                 ffmpeg + "-f lavfi -i 'gradients=s=161x91:r=5:d=1:c0=black:c1=white' "
-                                          "-pix_fmt gray d/%05d.png") == 0);
+    REQUIRE(RunShell(folder,
+                     ffmpeg +
+                         "-f lavfi -i testsrc=s=161x91:r=5:d=1 -c:v ffv1 in.mkv && mkdir d && " +
+                         ffmpeg +
+                         "-f lavfi -i 'gradients=s=161x91:r=5:d=1:c0=black:c1=white' "
+                         "-pix_fmt gray d/%05d.png") == 0);
     for (const char* format : {"yuv420p", "yuv422p", "yuv444p", "gray"}) {
       CAPTURE(format);
       REQUIRE(RunShell(folder, ffmpeg + "-i in.mkv -pix_fmt " + format +
                                    " -f yuv4mpegpipe - | starfocus video - --depth 'd/%05d.png' "
                                    "--near white --no-repair --strength 0 -o - 2>log | " +
                                    ffmpeg + "-f yuv4mpegpipe -i - -c:v ffv1 out.mkv") == 0);
-      CHECK(RunShell(folder, "test $(ffprobe -v error -count_frames -show_entries "
-                             "stream=nb_read_frames -of csv=p=0 out.mkv) = 5") == 0);
+      CHECK(RunShell(folder,
+                     "test $(ffprobe -v error -count_frames -show_entries "
+                     "stream=nb_read_frames -of csv=p=0 out.mkv) = 5") == 0);
       // Without blur, luma is that of the input, except for chroma that RGB cannot have.
       for (const char* file : {"in", "out"}) {
         REQUIRE(RunShell(folder, ffmpeg + "-i " + file + ".mkv -frames:v 1 -vf format=" + format +

@@ -194,8 +194,8 @@ Result<Written> RefocusFrames(const VideoOptions& options, const LensPlan& plan,
   if (video->is_stream) {
     stages.emplace_back([&](ClipFrame* frame) { return RepairFrame(options, plan, frame); });
   }
-  // A stage that stabilises the maps belongs here: it gets the frames in order, with the centre view
-  // and the map in frame->capture.light_field.
+  // A stage that stabilises the maps belongs here: it gets the frames in order, with the centre
+  // view and the map in frame->capture.light_field.
   stages.emplace_back([&](ClipFrame* frame) { return refocusing.Refocus(frame); });
   stages.emplace_back([&](ClipFrame* frame) -> Result<bool> {
     Result<bool> open = output->Write(*frame);
@@ -255,7 +255,8 @@ Command VideoCommand() {
       "sorted by the numbers in their names; a pattern such as in/%05d.png means its files.\n"
       "Depth maps without distances get one scale and one near end for all frames. If --depth or\n"
       "--matte is a folder or a pattern, its pictures are paired with the frames by name or\n"
-      "number, and with the frames of a Y4M stream in their order; --depth may be a Y4M file, too.\n"
+      "number, and with the frames of a Y4M stream in their order; --depth may be a Y4M file, "
+      "too.\n"
       "Unless --focus, --focus-range or --focus-keys is given, the first frame determines the\n"
       "focus of all frames: the focus at the pixel of --focus-at, or else the default focus.\n"
       "Modes frame and benchmark choose one number of views for all frames.",
