@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/y4m.h"
 
-#include <sys/stat.h>
+#include <signal.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 #include "platform/file.h"
 #include "platform/standard_stream.h"
@@ -380,6 +383,67 @@ std::vector<uint8_t> EncodeY4mFrame(const Y4mHeader& header, const PlanarImage& 
     put(luma + (i < chroma ? 2 * i : 2 * (i - chroma) + 1));
   }
   return bytes;
+}
+
+namespace {
+
+// True while a frame is written, and after a signal that ends the program.
+std::atomic<bool> writes_frame{false}, is_ending{false};
+
+// Waits for the end of the frame that another thread writes. Runs in a signal handler.
+void WaitForFrame(const void*) {
+  is_ending = true;
+  for (int k = 0; k < 2000 && writes_frame; ++k) {
+    const timespec millisecond = {0, 1000000};
+    nanosleep(&millisecond, nullptr);
+  }
+}
+
+// Blocks signals in the thread that writes a frame, so that another thread handles them and waits,
+// or this thread handles them after the frame.
+class WholeFrame {
+ public:
+  WholeFrame() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+    writes_frame = true;
+  }
+  ~WholeFrame() {
+    writes_frame = false;
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  WholeFrame(const WholeFrame&) = delete;
+  WholeFrame& operator=(const WholeFrame&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+}  // namespace
+
+Y4mWriter::Y4mWriter(Y4mHeader header) : header_(std::move(header)) {
+  cleanup_.Add(SignalCleanup::Turn(), WaitForFrame, nullptr);
+}
+
+Y4mWriter::~Y4mWriter() { cleanup_.Remove(SignalCleanup::Turn()); }
+
+Result<bool> Y4mWriter::Write(const PlanarImage& planar) {
+  std::vector<uint8_t> bytes = EncodeY4mFrame(header_, planar);
+  if (!has_begun_) {
+    const std::string line = header_.Line();
+    bytes.insert(bytes.begin(), line.begin(), line.end());
+  }
+  has_begun_ = true;
+  const WholeFrame whole_frame;
+  if (is_ending) return false;
+  errno = 0;
+  const bool whole = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() &&
+                     std::fflush(stdout) == 0;
+  if (whole) return true;
+  const int reason = errno != 0 ? errno : EIO;
+  if (reason == EPIPE) return false;
+  return Cannot("write to", "standard output", {reason, std::generic_category()});
 }
 
 }  // namespace starfocus

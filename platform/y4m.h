@@ -12,6 +12,7 @@
 
 #include "platform/image.h"
 #include "platform/result.h"
+#include "platform/signal_cleanup.h"
 
 namespace starfocus {
 
@@ -86,6 +87,25 @@ std::vector<float> LumaLevels(const Y4mHeader& header, const std::vector<uint8_t
 
 // Returns the bytes of a frame of a stream with the header, with the line "FRAME".
 std::vector<uint8_t> EncodeY4mFrame(const Y4mHeader& header, const PlanarImage& planar);
+
+// Writes a stream to standard output. If a signal ends the program, the stream ends after a complete
+// frame, unless its reader stops reading for two seconds.
+class Y4mWriter {
+ public:
+  explicit Y4mWriter(Y4mHeader header);
+  ~Y4mWriter();
+  Y4mWriter(const Y4mWriter&) = delete;
+  Y4mWriter& operator=(const Y4mWriter&) = delete;
+
+  // Writes a frame, and the header before the first frame. Returns false if nobody reads the stream
+  // any more, or if the program is ending.
+  Result<bool> Write(const PlanarImage& planar);
+
+ private:
+  const Y4mHeader header_;
+  bool has_begun_ = false;
+  SignalCleanup cleanup_;
+};
 
 }  // namespace starfocus
 

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/cli/clip_output.h"
 
-#include <signal.h>
-#include <time.h>
-
-#include <atomic>
-#include <cerrno>
-#include <cstdio>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -16,75 +10,21 @@
 #include "platform/folder.h"
 #include "platform/image_io.h"
 #include "platform/shell_command.h"
-#include "platform/signal_cleanup.h"
 #include "platform/writers/webp.h"
 
 namespace starfocus {
 namespace {
 
-// True while a frame is written, and after a signal that ends the program.
-std::atomic<bool> writes_frame{false}, is_ending{false};
-
-// Waits for the end of the frame that another thread writes, at most two seconds, because the
-// reader of a pipe may have stopped. Runs in a signal handler.
-void WaitForFrame(const void*) {
-  is_ending = true;
-  for (int k = 0; k < 2000 && writes_frame; ++k) {
-    const timespec millisecond = {0, 1000000};
-    nanosleep(&millisecond, nullptr);
-  }
-}
-
-// Writes a frame to standard output completely, also if a signal ends the program meanwhile.
-class WholeFrame {
- public:
-  WholeFrame() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before_);  // another thread waits, or this one afterwards
-    writes_frame = true;
-  }
-  ~WholeFrame() {
-    writes_frame = false;
-    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-  }
-  WholeFrame(const WholeFrame&) = delete;
-  WholeFrame& operator=(const WholeFrame&) = delete;
-
-  Result<bool> Write(const std::vector<uint8_t>& bytes) const {
-    if (is_ending) return false;
-    errno = 0;
-    const bool whole = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() &&
-                       std::fflush(stdout) == 0;
-    if (whole) return true;
-    const int reason = errno != 0 ? errno : EIO;
-    if (reason == EPIPE) return false;  // RunProgram ends the program
-    return Cannot("write to", "standard output", {reason, std::generic_category()});
-  }
-
- private:
-  sigset_t before_;
-};
-
 class StreamOutput : public ClipOutput {
  public:
-  explicit StreamOutput(Y4mHeader header) : header_(std::move(header)) {
-    cleanup_.Add(SignalCleanup::Turn(), WaitForFrame, nullptr);
-  }
-  ~StreamOutput() override { cleanup_.Remove(SignalCleanup::Turn()); }
+  explicit StreamOutput(const Y4mHeader& header) : writer_(header) {}
 
   Result<bool> Write(const ClipFrame& frame) override {
-    std::vector<uint8_t> bytes = EncodeY4mFrame(header_, frame.result->planar);
-    if (frame.index == 0) {
-      const std::string line = header_.Line();
-      bytes.insert(bytes.begin(), line.begin(), line.end());
-    }
-    return WholeFrame().Write(bytes);
+    return writer_.Write(frame.result->planar);
   }
 
  private:
-  const Y4mHeader header_;
-  SignalCleanup cleanup_;
+  Y4mWriter writer_;
 };
 
 PictureOptions OptionsFor(const ClipFrame& frame) {

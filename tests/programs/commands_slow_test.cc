@@ -142,10 +142,10 @@ starfocus refocus lf -o a.png
 starfocus refocus lf -o b.png --focus 1
 starfocus-lab calibrate --light-field lf --check lf -o timing.json
 printf 'photo.jpg\nlf\n' >inputs.txt
-mkdir clip rgb depth
+mkdir clip in d
 cp photo.jpg clip/1.jpg
-cp IMG.jpg rgb/1.jpg
-cp MAP.png depth/1.png
+cp IMG.jpg in/00001.jpg
+cp MAP.png d/00001.png
 mkdir photos
 cp IMG.jpg photos
 cp IMG.jpg portrait.jpg
