@@ -88,8 +88,8 @@ std::vector<float> LumaLevels(const Y4mHeader& header, const std::vector<uint8_t
 // Returns the bytes of a frame of a stream with the header, with the line "FRAME".
 std::vector<uint8_t> EncodeY4mFrame(const Y4mHeader& header, const PlanarImage& planar);
 
-// Writes a stream to standard output. If a signal ends the program, the stream ends after a complete
-// frame, unless its reader stops reading for two seconds.
+// Writes a stream to standard output. If a signal ends the program, the stream ends after a
+// complete frame, unless its reader stops reading for two seconds.
 class Y4mWriter {
  public:
   explicit Y4mWriter(Y4mHeader header);

@@ -96,12 +96,13 @@ double ValueAt(const std::vector<Key>& keys, double Key::*value, Easing easing, 
 void AddLensKeyOptions(Command* command, LensKeyOptions* options) {
   AddOptions(
       {
-          {"--focus-keys", "KEYS|FILE",
-           "Focus of some frames, counted from 0: FRAME:at=X,Y or FRAME:disparity=D with spaces "
+          {"--focus-keys", "KEYS",
+           "Focus of some frames, counted from 0, as text or in a file: FRAME:at=X,Y or "
+           "FRAME:disparity=D with spaces "
            "between them; frames between two keys have disparities between theirs; default: one "
            "focus for all frames",
            &options->focus, Use::kOptional},
-          {"--aperture-keys", "KEYS|FILE",
+          {"--aperture-keys", "KEYS",
            "Aperture of some frames, likewise: FRAME:f-stop=N, FRAME:aperture=U or "
            "FRAME:strength=S; default: one aperture for all frames",
            &options->aperture, Use::kOptional},

@@ -245,11 +245,7 @@ Command VideoCommand() {
       {},
       [options] { return Run(*options); },
       {"starfocus video frames -o out --focus 2",
-       "starfocus video rgb --depth depth -o out --near white --focus-at 320,240",
-       "starfocus video 'in/%05d.png' --depth 'd/%05d.png' -o out.webp --focus-keys '0:at=422,414 "
-       "48:disparity=-3.2'",
-       "ffmpeg -i in.mp4 -f yuv4mpegpipe - | starfocus video - --depth 'd/%05d.png' -o - | ffmpeg "
-       "-i - out.mp4"},
+       "starfocus video 'in/%05d.png' --depth 'd/%05d.png' -o out --focus-at 320,240"},
       "Frames must have the same size and are taken in the order of SRC. If SRC is one folder\n"
       "that is not a light field, the frames are the light fields or photos in this folder,\n"
       "sorted by the numbers in their names; a pattern such as in/%05d.png means its files.\n"
@@ -259,10 +255,13 @@ Command VideoCommand() {
       "too.\n"
       "Unless --focus, --focus-range or --focus-keys is given, the first frame determines the\n"
       "focus of all frames: the focus at the pixel of --focus-at, or else the default focus.\n"
-      "Modes frame and benchmark choose one number of views for all frames.",
+      "Modes frame and benchmark choose one number of views for all frames.\n"
+      "\n"
+      "FFmpeg decodes and encodes streams: ffmpeg -i in.mp4 -f yuv4mpegpipe - |\n"
+      "starfocus video - --depth 'd/%05d.png' -o - | ffmpeg -i - out.mp4",
       {{"Input and output",
-        {{"SRC", "Frames, one folder or pattern of frames, or a Y4M stream (-)"},
-         {"--output", "Folder for the pictures, FILE.webp, or - for a Y4M stream"},
+        {{"SRC", "Frames, a folder or pattern of them, or a stream (-)"},
+         {"--output", "Folder, .webp animation, or - for a Y4M stream"},
          {"--depth", "Depth of the frames, if it is separate"},
          {"--matte", "Mattes of the frames, if they have no depth"},
          {"--near", "Shade that is near in depth pictures: white or black"},
@@ -270,8 +269,8 @@ Command VideoCommand() {
        {"Focus and lens",
         {{"--focus-at", "Pixel in focus in the first frame"},
          {"--focus", "Disparity in focus"},
-         {"--focus-keys", "Focus of some frames: '0:at=422,414 48:disparity=-3.2'"},
-         {"--aperture-keys", "Aperture of some frames: '0:f-stop=8 48:f-stop=1.8'"},
+         {"--focus-keys", "Focus by frame: '0:at=422,414 48:disparity=-3.2'"},
+         {"--aperture-keys", "Aperture by frame: '0:f-stop=8 48:f-stop=1.8'"},
          {"--f-stop", "F-stop, such as 2.8; a smaller one blurs more"},
          {"--strength", "Percentage of the blur, 0 to 100"}}}}};
   AddInputOptions(&command, &options->input, &options->inputs);
