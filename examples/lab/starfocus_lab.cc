@@ -29,8 +29,9 @@ Error Run(int argc, char** argv) {
                      {"calibrate", "Measure the coefficients of the timing model"},
                      {"help"}}},
                    {"Options", {{"--help"}, {"--help-all"}, {"--version"}}}}};
-  program.commands = {SceneCommand(),     CompareCommand(), FlickerCommand(), SheetCommand(),       AnalyzeCommand(),
-                      CalibrateCommand(), StepsCommand(),   HelpCommand(&program)};
+  program.commands = {SceneCommand(), CompareCommand(),     FlickerCommand(),
+                      SheetCommand(), AnalyzeCommand(),     CalibrateCommand(),
+                      StepsCommand(), HelpCommand(&program)};
   return RunCommandLine(program, argc, argv);
 }
 

@@ -46,7 +46,8 @@ void Move(const Movement& movement, Surface* surface) {
 }  // namespace
 
 // Samples along each side of a pixel. With 4, fine textures shimmer: at 640x480, the PSNR of the
-// centre view of `portrait` against a truth with aperture 0.01 is 48.9 dB with 4 and 54.0 dB with 8.
+// centre view of `portrait` against a truth with aperture 0.01 is 48.9 dB with 4 and 54.0 dB
+// with 8.
 constexpr int kMovingGrid = 8;
 
 // Amplitudes in canvas units. In the first eight frames of 640x480 pixels, the person of the scene

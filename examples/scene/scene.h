@@ -62,7 +62,7 @@ struct Surface {
   double slope_x = 0, slope_y = 0;  // Change of a plane's disparity per unit of x and of y.
   double thickness = 0;             // Width of a ring.
   std::shared_ptr<const Strands> strands;  // relative to the centre, along the local axes
-  bool foreground = false;  // true if the surface counts in the coverage or matte
+  bool foreground = false;                 // true if the surface counts in the coverage or matte
   Paint paint = nullptr;
   Color color, second;
   double scale = 1;  // scale of the texture

@@ -33,9 +33,7 @@ struct Rigid {
     target = {b.cx, b.cy};
     turn = {a.ax * b.ax + a.ay * b.ay, a.ax * b.ay - a.ay * b.ax};
   }
-  Point Turned(Point p) const {
-    return {p.x * turn.x - p.y * turn.y, p.x * turn.y + p.y * turn.x};
-  }
+  Point Turned(Point p) const { return {p.x * turn.x - p.y * turn.y, p.x * turn.y + p.y * turn.x}; }
   Point Moved(Point p) const {
     const Point turned = Turned({p.x - centre.x, p.y - centre.y});
     return {target.x + turned.x, target.y + turned.y};

@@ -60,9 +60,9 @@ struct Errors {
   int pictures = 0, changes = 0;
 };
 
-// A row of the table: a way to make maps. `make` replaces the unstable map of the light field, which
-// is that of the frame with the views of the row. `make` is called once for each frame, in order,
-// so that it may keep data of the previous frame.
+// A row of the table: a way to make maps. `make` replaces the unstable map of the light field,
+// which is that of the frame with the views of the row. `make` is called once for each frame, in
+// order, so that it may keep data of the previous frame.
 struct Row {
   const char* map;
   int views;
@@ -113,7 +113,7 @@ Result<Clip> FindClip(const std::string& path) {
     if (name.rfind("frame_", 0) == 0) clip.folders.push_back((fs::path(path) / name).string());
   }
   if (clip.folders.size() < 2) {
-    return Expected(path, "two frames of `starfocus-lab scene --frames`",
+    return Expected(path, "at least two frames of `starfocus-lab scene --frames`",
                     std::to_string(clip.folders.size()));
   }
   const Result<std::vector<std::string>> files = ListFolder(clip.folders[0]);
@@ -177,8 +177,8 @@ Result<Image> Refocus(const FlickerOptions& options, const Clip& clip, const Fra
   return std::move(result->picture);
 }
 
-// Adds the difference between the change of a picture from frame to frame and the change of the true
-// picture.
+// Adds the difference between the change of a picture from frame to frame and the change of the
+// true picture.
 void AddChange(const Image& picture, const Image& before, const Image& truth,
                const Image& truth_before, Errors* errors) {
   int64_t sum = 0, jumps = 0;

@@ -213,7 +213,7 @@ std::string MetaText(const SceneOptions& options, const Plan& plan, const Scene&
 
 struct Pictures {
   LightField light_field;  // with the exact map
-  GreyImage matte;  // no levels: the scene has no matte
+  GreyImage matte;         // no levels: the scene has no matte
   std::vector<Image> truths;
   std::vector<DeepImage> hdr_truths;  // with --hdr, in place of `truths`
 };
@@ -239,10 +239,9 @@ Pictures Render(const SceneOptions& options, const Plan& plan, const RayTracer& 
     alpha.clear();
   }
   for (const Truth& truth : plan.truths) {
-    const SceneLight light =
-        renderer.TruthLight(truth.focus, truth.aperture, opening,
-                            options.hdr || options.frames ? kFineLensSamples : kLensSamples,
-                            &progress);
+    const SceneLight light = renderer.TruthLight(
+        truth.focus, truth.aperture, opening,
+        options.hdr || options.frames ? kFineLensSamples : kLensSamples, &progress);
     if (options.hdr) pictures.hdr_truths.push_back(renderer.Halves(light));
     if (!options.hdr) pictures.truths.push_back(renderer.Encoded(light));
   }
@@ -279,8 +278,7 @@ Error RenderFrame(const SceneOptions& options, const Plan& plan, const std::stri
                         : WriteImage(path, pictures.truths[i]);
   }
   if (error) return error;
-  const std::string meta =
-      MetaText(options, plan, scene, renderer, pictures.light_field.disparity);
+  const std::string meta = MetaText(options, plan, scene, renderer, pictures.light_field.disparity);
   return WriteText((fs::path(folder) / "meta.txt").string(), meta);
 }
 
