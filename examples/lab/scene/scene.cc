@@ -306,8 +306,7 @@ Command SceneCommand() {
                      "Ray-trace a light field with exact disparities into a folder",
                      {},
                      [options] { return Run(*options); },
-                     {"starfocus-lab scene lf --name portrait --size 640x480",
-                      "starfocus-lab scene lf --views 5 --truth 4,1 --shape disc",
+                     {"starfocus-lab scene lf --views 5 --truth 4,1 --shape disc",
                       "starfocus-lab scene clip --views 5 --frames 8 --unstable 1"}};
   AddOptions(
       {
