@@ -9,6 +9,7 @@
 #include "examples/cli/input.h"
 #include "platform/decoders/deep.h"
 #include "platform/deep_image.h"
+#include "platform/icc_profile.h"
 #include "platform/image_io.h"
 #include "platform/standard_stream.h"
 #include "platform/writers/deep_picture.h"
@@ -34,11 +35,18 @@ bool IsAlwaysDeep(const std::string& path) {
 void Deepen(const std::string& path, Capture* capture) {
   LightField& light_field = capture->light_field;
   if (!IsAlwaysDeep(path) || !light_field.deep.empty()) return;
+  const Metadata& metadata = capture->metadata;
+  light_field.deep_colours = metadata.icc.empty()
+                                 ? metadata.colours
+                                 : DescriptionOf(metadata.icc).value_or(ColourDescription());
   if (!capture->gain_map.levels.empty()) {
     light_field.deep.push_back(ApplyGainMap(light_field.views[0], capture->gain_map));
     return;
   }
-  for (const Image& view : light_field.views) light_field.deep.push_back(Widen(view, {}));
+  for (const Image& view : light_field.views) {
+    light_field.deep.push_back(Widen(view, {}));
+    if (light_field.is_linear) light_field.deep.back().transfer = STARFOCUS_TRANSFER_NONE;
+  }
 }
 
 // Removes the light of the file, because --highlights guesses light.
@@ -127,7 +135,7 @@ Error ChooseBits(const OutputOptions& output, bool single, Capture* capture, Eng
 Error WriteDeepResult(const std::string& path, const PictureOptions& how, const Capture& capture,
                       const EngineResult& result) {
   DeepOptions options = {how};
-  options.picture.metadata.colours = capture.deep_colours;
+  options.picture.metadata.colours = capture.light_field.deep_colours;
   const std::string extension = FormatExtension(path);
   const bool shows_hdr = extension == ".avif" || extension == ".heic";
   if (shows_hdr) options.transfer = STARFOCUS_TRANSFER_PQ;

@@ -135,9 +135,11 @@ Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options
   }
   capture.format = photo.format;
   capture.metadata = std::move(photo.metadata);
-  if (photo.deep && !pair) capture.light_field.deep.push_back(std::move(*photo.deep));
+  if (photo.deep && !pair) {
+    capture.light_field.deep.push_back(std::move(*photo.deep));
+    capture.light_field.deep_colours = std::move(photo.deep_colours);
+  }
   if (!pair) capture.gain_map = std::move(photo.gain_map);
-  capture.deep_colours = std::move(photo.deep_colours);
   capture.facts = std::move(photo.facts);
   capture.notes = std::move(photo.notes);
   capture.lost = std::move(photo.lost);
