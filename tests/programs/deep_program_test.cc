@@ -308,6 +308,44 @@ TEST_CASE("deep pictures: the new gain map of a photo has the refocused light") 
   CHECK(Contains(Text(folder.file("second")), "[XMP-hdrgm]     GainMapMax"));
 }
 
+// Writes a light field of one view whose rows have the codes start + step * y of 16 bits.
+void MakeRamp(const TempFolder& folder, const std::string& name, int start, int step) {
+  std::filesystem::create_directory(folder.file(name));
+  const FloatMap map = {kWide, kHigh, std::vector<float>(size_t(kWide) * kHigh, 3)};
+  REQUIRE(WritePfm(folder.file(name + "/disparity.pfm"), map) == "");
+  std::string samples;
+  for (int y = 0; y < kHigh; ++y) {
+    for (int k = 0; k < 3 * kWide; ++k) samples += Big(uint32_t(start + step * y), 2);
+  }
+  Write(folder.file(name + "/view_+0.0_+0.0.png"),
+        Png(kWide, kHigh, {16, 2}, samples, size_t(6) * kWide));
+}
+
+TEST_CASE("deep pictures: 8 bits of a sky have its mean light, and whole codes stay flat") {
+  if (!HasLibraries()) return;
+  TempFolder folder;
+  constexpr int kRows = 32;
+  MakeRamp(folder, "sky", 25744, 6);   // from 100.2 on, a code of 8 bits every 43 rows
+  MakeRamp(folder, "flat", 25708, 0);  // less than a sixteenth of a code above 100
+  for (const char* output :
+       {"sky --focus 0 -o sky.ppm", "sky --focus 0 -o sky.png", "flat --focus 0 -o flat.ppm"}) {
+    Succeed(folder, std::string("refocus ") + output);
+  }
+  const Image sky = Decoded(folder, "sky.ppm").image, flat = Decoded(folder, "flat.ppm").image;
+  const DeepImage exact = Deep(folder, "sky.png");
+  double largest = 0;  // in codes of 8 bits; rounding errs by up to 0.4
+  for (int top = 0; top + kRows <= kHigh; ++top) {
+    double sum = 0;
+    for (int y = top; y < top + kRows; ++y) {
+      for (int k = 0; k < 3 * kWide; ++k) sum += sky.row(y)[k] - exact.row(y)[k] / 257.0;
+    }
+    largest = std::max(largest, std::fabs(sum / (3 * kWide * kRows)));
+  }
+  CHECK(largest < 0.1);
+  CHECK(std::all_of(flat.pixels.begin(), flat.pixels.end(),
+                    [&flat](uint8_t code) { return code == flat.pixels[0]; }));
+}
+
 TEST_CASE("deep pictures: linear photos of 8 bits keep their light and primaries in EXR files") {
   if (!HasLibraries()) return;
   TempFolder folder;
