@@ -11,6 +11,7 @@
 #include "platform/deep_image.h"
 #include "platform/icc_profile.h"
 #include "platform/image_io.h"
+#include "platform/readers/sample_bits.h"
 #include "platform/standard_stream.h"
 #include "platform/writers/deep_picture.h"
 #include "platform/writers/ultra_hdr.h"
@@ -70,6 +71,13 @@ void TellLostBits(const Capture& capture) {
   }
 }
 
+// Prints a note if a WebP picture has fewer bits than the input.
+void TellBits(const Capture& capture) {
+  std::vector<std::string> notes;
+  NoteSampleBits(capture.light_field.deep[0].bits, &notes);
+  for (const std::string& note : notes) TellNote(capture.path, note);
+}
+
 // Prints a note if the capture has a gain map that the output does not keep.
 void TellLostGainMap(const OutputOptions& output, bool single, const Capture& capture) {
   if (capture.gain_map.levels.empty() || !capture.light_field.deep.empty()) return;
@@ -113,7 +121,9 @@ Error ChooseBits(const OutputOptions& output, bool single, Capture* capture, Eng
   const bool is_hdr = std::any_of(light_field.deep.begin(), light_field.deep.end(), MayExceedWhite);
   const bool has_alpha = std::any_of(light_field.deep.begin(), light_field.deep.end(),
                                      [](const DeepImage& deep) { return deep.channels == 4; });
-  const bool keeps = single && KeepsBits(path);
+  const bool keeps_alpha = single && WritesWebpAlpha(output, *capture);
+  const bool keeps = keeps_alpha || (single && KeepsBits(path));
+  if (keeps_alpha) TellBits(*capture);
   if (!keeps || replaces) TellLostBits(*capture);
   // Pictures without alpha show the colours of transparent pixels, and those of a sweep no light
   // beyond white.
@@ -130,6 +140,23 @@ Error ChooseBits(const OutputOptions& output, bool single, Capture* capture, Eng
     }
   }
   return {};
+}
+
+bool WritesWebpAlpha(const OutputOptions& output, const Capture& capture) {
+  const std::vector<DeepImage>& deep = capture.light_field.deep;
+  return FormatExtension(output.out) == ".webp" && !deep.empty() &&
+         std::all_of(deep.begin(), deep.end(), [](const DeepImage& view) {
+           return view.channels == 4 && !MayExceedWhite(view);
+         });
+}
+
+Error WriteWebpAlpha(const std::string& path, const PictureOptions& how,
+                     const EngineResult& result) {
+  PictureOptions options = how;
+  for (size_t at = 3; at < result.deep.samples.size(); at += 4) {
+    options.alphas.push_back(static_cast<uint8_t>((result.deep.samples[at] + 128) / 257));
+  }
+  return WriteImage(path, result.picture, options);
 }
 
 Error WriteDeepResult(const std::string& path, const PictureOptions& how, const Capture& capture,

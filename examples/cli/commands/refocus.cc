@@ -244,6 +244,8 @@ Error RunOne(const RefocusOptions& options, const PictureOptions& how, const Len
   const std::string& out = options.output.out;
   if (task.deep_picture && KeepsBits(out)) {
     write = [&] { return WriteDeepResult(out, how, capture, result); };
+  } else if (task.deep_picture && WritesWebpAlpha(options.output, capture)) {
+    write = [&] { return WriteWebpAlpha(out, how, result); };
   } else if (task.deep_picture && !out.empty() && !options.output.depth_photo) {
     write = [&] { return WriteImage(out, result.picture, how); };
   } else if (WritesGainMap(options.output, capture)) {
