@@ -36,14 +36,15 @@ StatedSamples TiffSamples(const Bytes& file) {
   constexpr uint32_t kBits = 258, kFormat = 339, kFloat = 3, kShort = 3;
   const TiffNumbers numbers({file.data(), file.size()});
   const size_t directory = numbers.Whole(4, 4);
-  // Returns the first number of an entry, which is in the entry if there is only one or two.
+  // Returns the first number of an entry, which is in the entry if all of them have 4 bytes.
   const auto first_of = [&](uint32_t tag, uint32_t absent) {
     const std::optional<size_t> at = numbers.Entry(directory, tag);
-    if (!at || numbers.Whole(*at + 2, 2) != kShort) return absent;
-    const bool is_inside = numbers.Whole(*at + 4, 4) <= 2;
-    return numbers.Whole(is_inside ? *at + 8 : numbers.Whole(*at + 8, 4), 2);
+    if (!at) return absent;
+    const size_t size = numbers.Whole(*at + 2, 2) == kShort ? 2 : 4;
+    const bool is_inside = numbers.Whole(*at + 4, 4) <= 4 / size;
+    return numbers.Whole(is_inside ? *at + 8 : numbers.Whole(*at + 8, 4), size);
   };
-  return {static_cast<int>(first_of(kBits, 8)), first_of(kFormat, 1) == kFloat};
+  return {static_cast<int>(std::min(first_of(kBits, 8), 64u)), first_of(kFormat, 1) == kFloat};
 }
 
 // Reads the configurations of the coded pictures of a HEIF file: hvcC (ISO/IEC 14496-15, 8.3.3.1)

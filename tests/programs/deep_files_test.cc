@@ -20,6 +20,7 @@
 #include "platform/readers/deep_photo.h"
 #include "platform/readers/depth_photo_file.h"
 #include "platform/readers/orientation.h"
+#include "platform/readers/sample_bits.h"
 #include "platform/writers/deep_picture.h"
 #include "platform/writers/exr.h"
 #include "platform/writers/heif.h"
@@ -438,6 +439,8 @@ TEST_CASE("TIFF: pictures of 8 and 16 bits and of floats are read, with alpha") 
        {257, 514, 771, 1028},
        {1, 2, 3}},
   });
+  CHECK(StatedSamplesOf(BytesOf(Tiff(1, 3, 32, {{kFormat, kFloat}}, ""))).is_float);
+  CHECK(StatedSamplesOf(BytesOf(Tiff(1, 3, 8, {}, ""))).bits == 8);
   const std::string lights = LittleFloat(2) + LittleFloat(-0.5F) + LittleFloat(1e9F);
   CHECK(LightsOf(Decode(Tiff(1, 3, 32, {{kFormat, kFloat}}, lights))) ==
         std::vector<float>{2, -0.5F, 65504});
@@ -481,6 +484,8 @@ TEST_CASE("writers: TIFF of 16 bits keeps all codes, alpha and profile, and tiff
     const Written written = WriteAndRead(folder, "a.tif", image, options);
     CHECK(written.picture.deep->samples == image.samples);
     CHECK(written.picture.metadata.icc == options.picture.metadata.icc);
+    CHECK(StatedSamplesOf(written.bytes).bits == 16);
+    CHECK(!StatedSamplesOf(written.bytes).is_float);
     if (!asks) continue;
     const std::string text = Ask(folder, "tiffinfo '" + folder.file("a.tif") + "'");
     CHECK(Contains(text, "Bits/Sample: 16\n"));
@@ -508,6 +513,7 @@ TEST_CASE("writers: AVIF and HEIC keep codes within their bits, alpha and code p
       options.picture.metadata.colours = {"cICP", 9, 16};
       const Written written = WriteAndRead(folder, name, image, options);
       const DeepImage& deep = *written.picture.deep;
+      CHECK(StatedSamplesOf(written.bytes).bits == deep.bits);
       CHECK(std::tuple(deep.width, deep.height, deep.channels, deep.transfer) ==
             std::tuple(67, 34, channels, kPq));
       CHECK(written.picture.metadata.colours.primaries == 9);

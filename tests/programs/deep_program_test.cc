@@ -22,6 +22,7 @@
 #include "platform/writers/exr.h"
 #include "platform/writers/tiff.h"
 #include "platform/writers/ultra_hdr.h"
+#include "platform/writers/webp.h"
 #include "tests/programs/session.h"
 #include "tests/support/photo_files.h"
 
@@ -157,8 +158,10 @@ DeepImage Deep(const TempFolder& folder, const std::string& name) {
 bool HasLibraries() {
   const Result<DecodedPicture> deep = DecodeImage(
       "a", [](const std::string& png) { return Bytes(png.begin(), png.end()); }(DeepPng(2, 4, "")));
-  if (CanReadXmp() && deep && deep->deep && !CheckExrEncoder("a.exr")) return true;
-  std::printf("SKIPPED: this build lacks libpng, OpenEXR or an XML parser\n");
+  const bool writes =
+      !CheckExrEncoder("a.exr") && !CheckTiffEncoder("a.tif") && !WebpWriter::Check("a.webp", 1, 1);
+  if (CanReadXmp() && deep && deep->deep && writes) return true;
+  std::printf("SKIPPED: this build lacks libpng, libwebp, libtiff, OpenEXR or an XML parser\n");
   return false;
 }
 
