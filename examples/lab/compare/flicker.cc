@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// starfocus-lab flicker: refocuses the frames of a moving scene with exact, unstable and repaired
-// maps, and measures how much the pictures flicker.
+// starfocus-lab flicker: refocuses the frames of a moving scene with exact, unstable, repaired and
+// stabilised maps, and measures how much the pictures flicker.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -14,6 +14,7 @@
 
 #include "examples/cli/engine_run.h"
 #include "examples/cli/estimate_run.h"
+#include "examples/cli/map_stabiliser.h"
 #include "examples/cli/pictures.h"
 #include "examples/command_line/options.h"
 #include "examples/command_line/program.h"
@@ -91,6 +92,13 @@ std::vector<Row> MakeRows(const FlickerOptions& options, int views) {
   for (const int count : counts) rows.push_back({"exact", count, exact});
   for (const int count : counts) rows.push_back({"unstable", count, unstable});
   for (const int count : counts) rows.push_back({"repaired", count, repaired});
+  for (const int count : counts) {
+    const auto stabiliser = std::make_shared<MapStabiliser>(options.threads);
+    rows.push_back({"stable", count, [=](const Frame& frame, LightField* light_field) {
+                      Error error = stabiliser->Stabilise(frame.folder, light_field, nullptr);
+                      return error ? error : repaired(frame, light_field);
+                    }});
+  }
   return rows;
 }
 
@@ -257,8 +265,9 @@ Error Run(const FlickerOptions& options) {
 Command FlickerCommand() {
   const auto options = std::make_shared<FlickerOptions>();
   return {"flicker",
-          "Measure how much the pictures of a moving scene flicker with exact, unstable and "
-          "repaired maps: the mean PSNR, the mean error of the change from frame to frame in grey "
+          "Measure how much the pictures of a moving scene flicker with exact, unstable, "
+          "repaired and stabilised maps: the mean PSNR, the mean error of the change from frame to "
+          "frame in grey "
           "levels, and the share of samples where this error is above 8",
           {
               {"DIR", "DIR",

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/video/stabilise.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+#include "simd/kernels.h"
+
+namespace starfocus {
+namespace {
+
+// Measurements that count for a mean: more would hide that a surface comes nearer.
+constexpr int32_t kMostCount = 8;
+// Measurements after which another surface takes over at the latest.
+constexpr int32_t kMostVotes = 4;
+// Frames that count for the mean scale of maps.
+constexpr int32_t kMostLength = 8;
+
+// Colour difference of a pixel and its eight neighbours, summed over R, G and B, up to which the
+// pixel follows a motion; more where the picture has contrast, because motions are whole pixels.
+constexpr uint16_t kMostColour = 27 * 9;
+
+// Motions that the pixels of a block may follow: those of the block and of its neighbours.
+struct Candidates {
+  Motion motions[9];
+  int32_t count = 0;
+
+  Candidates(const MotionField& field, int32_t column, int32_t row) {
+    Add(field.At(column, row));
+    for (int32_t y = Max(row - 1, 0); y <= Min(row + 1, field.rows - 1); ++y) {
+      for (int32_t x = Max(column - 1, 0); x <= Min(column + 1, field.columns - 1); ++x) {
+        Add(field.At(x, y));
+      }
+    }
+  }
+  void Add(const Motion& motion) {
+    if (std::find(motions, motions + count, motion) == motions + count) motions[count++] = motion;
+  }
+};
+
+constexpr auto kBlock = static_cast<int32_t>(simd::kFollowed);
+static_assert(kBlock == kMotionBlock);
+
+// Follows the pixels of a block to the frame before, and copies what is known of them. Returns the
+// number of pixels that continue.
+int32_t FollowBlock(const Stabiliser& s, int32_t column, int32_t row) {
+  const StableFrame &before = s.frames[s.current], &now = s.frames[1 - s.current];
+  const int32_t x0 = column * kBlock, y0 = row * kBlock;
+  const Candidates candidates(s.motion[0], column, row);
+  uint16_t limits[kBlock * kBlock], costs[kBlock * kBlock], choices[kBlock * kBlock];
+  std::fill_n(costs, kBlock * kBlock, simd::kNoCost);
+  s.kernels->LimitBlock(PixelAt(now.rgb, x0, y0), now.rgb.stride, kMostColour, limits);
+  for (int32_t k = 0; k < candidates.count; ++k) {
+    const int32_t x = x0 + candidates.motions[k].across, y = y0 + candidates.motions[k].down;
+    if (x < -kBlock || y < -kBlock || x > s.config.width || y > s.config.height) continue;
+    const simd::FollowedBlock block = {
+        PixelAt(now.rgb, x0, y0), PixelAt(before.rgb, x, y),  now.rgb.stride,
+        At(s.given, x0, y0),      At(before.disparity, x, y), s.given.stride,
+        before.disparity.stride};
+    s.kernels->FollowBlock(block, limits, static_cast<uint16_t>(k), costs, choices);
+  }
+  int32_t followed = 0;
+  ForPixels(Clipped({x0, y0, kBlock, kBlock}, s.config.width, s.config.height),
+            [&](int32_t x, int32_t y) {
+              const int32_t n = kBlock * (y - y0) + x - x0;
+              now.count.Row(y)[x] = 0;
+              if (costs[n] == simd::kNoCost) return;
+              const Motion& motion = candidates.motions[choices[n]];
+              const int32_t from_x = x + motion.across, from_y = y + motion.down;
+              if (!Contains({0, 0, s.config.width, s.config.height}, from_x, from_y)) return;
+              ++followed;
+              now.count.Row(y)[x] = before.count.Row(from_y)[from_x];
+              now.disparity.Row(y)[x] = before.disparity.Row(from_y)[from_x];
+              now.other.Row(y)[x] = before.other.Row(from_y)[from_x];
+              now.others.Row(y)[x] = before.others.Row(from_y)[from_x];
+              if (s.has_coverage) now.coverage.Row(y)[x] = before.coverage.Row(from_y)[from_x];
+            });
+  return followed;
+}
+
+int32_t Drifted(const Drift& drift, int32_t disparity) {
+  return disparity + drift.offset +
+         static_cast<int32_t>((int64_t{drift.scale} * disparity + (1 << (kDriftBits - 1))) >>
+                              kDriftBits);
+}
+
+// Adds the pixels of a row of blocks whose surface continues within `tolerance`, to find the change
+// of all disparities. Every sixteenth pixel is enough.
+DriftSums SumDrift(const Stabiliser& s, int32_t row, int32_t tolerance, const Drift& drift) {
+  const StableFrame& now = s.frames[1 - s.current];
+  DriftSums sums = {};
+  const int32_t last = Min(s.config.height, (row + 1) * kMotionBlock);
+  for (int32_t y = row * kMotionBlock; y < last; y += 4) {
+    for (int32_t x = 0; x < s.config.width; x += 4) {
+      const int32_t given = s.given.Row(y)[x];
+      if (now.count.Row(y)[x] == 0 || given == simd::kNoSurface) continue;
+      const int32_t before = now.disparity.Row(y)[x];
+      if (std::abs(Drifted(drift, given) - before) > tolerance) continue;
+      const int32_t step = before - given;
+      ++sums.count;
+      sums.x += given;
+      sums.y += step;
+      sums.xx += given * given;
+      sums.xy += given * step;
+    }
+  }
+  return sums;
+}
+
+// Returns the drift of least squares. Its scale is at most 1/4 and needs several disparities.
+Drift FitDrift(const DriftSums& s) {
+  if (s.count == 0) return {0, 0};
+  const double n = double(s.count), mean_x = double(s.x) / n, mean_y = double(s.y) / n;
+  const double variance = double(s.xx) / n - mean_x * mean_x;
+  const double covariance = double(s.xy) / n - mean_x * mean_y;
+  // The prior of no change of scale has the weight of disparities that vary by a pixel.
+  double scale = covariance / (variance + (1 << (2 * kDisparityBits)));
+  scale = scale < -0.25 ? -0.25 : scale > 0.25 ? 0.25 : scale;
+  const double offset = mean_y - scale * mean_x;
+  return {static_cast<int32_t>(scale * (1 << kDriftBits)), static_cast<int32_t>(offset)};
+}
+
+// Fuses the measurement of a pixel.
+struct Fusion {
+  int32_t tolerance;
+  Drift of_map, of_before;  // changes of the map and of what is known to their mean scale
+
+  // Returns true if the pixel keeps its surface.
+  bool Fuse(int32_t given, int16_t* disparity, uint8_t* count, int16_t* other,
+            uint8_t* others) const {
+    const bool is_known = given != simd::kNoSurface;
+    const int32_t measured = is_known ? Drifted(of_map, given) : 0;
+    if (*count == 0) {
+      *disparity = static_cast<int16_t>(measured);
+      *count = is_known ? 1 : 0;
+      *other = 0;
+      *others = 0;
+      return false;
+    }
+    int32_t own = Drifted(of_before, *disparity), second = Drifted(of_before, *other);
+    bool keeps = true;
+    if (is_known && std::abs(measured - own) <= tolerance) {
+      own += Rounded(measured - own, *count + 1);
+      *count = static_cast<uint8_t>(Min(*count + 1, kMostCount));
+      *others = static_cast<uint8_t>(Max(*others - 1, 0));
+    } else if (is_known) {
+      const bool joins = *others > 0 && std::abs(measured - second) <= tolerance;
+      second = joins ? second + Rounded(measured - second, *others + 1) : measured;
+      *others = static_cast<uint8_t>(joins ? Min(*others + 1, kMostCount) : 1);
+      if (*others > Min(*count, kMostVotes)) {
+        std::swap(own, second);
+        std::swap(*count, *others);
+        keeps = false;
+      } else if (*count > 1) {
+        --*count;
+      }
+    }
+    *disparity = static_cast<int16_t>(own);
+    *other = static_cast<int16_t>(second);
+    return keeps;
+  }
+
+  // Returns value / count, rounded to the nearest.
+  static int32_t Rounded(int32_t value, int32_t count) {
+    return (2 * value + (value < 0 ? -count : count)) / (2 * count);
+  }
+};
+
+// Takes a plane of whole blocks with a border, which blocks beside the picture read.
+template <class T>
+Plane<T> TakePadded(const FullConfig& config, int32_t samples, Arena* arena) {
+  constexpr int32_t kBorder = kBlock + 1;
+  const int32_t columns = MotionBlocks(config.width) * kBlock + 2 * kBorder;
+  const int32_t rows = MotionBlocks(config.height) * kBlock + 2 * kBorder;
+  const auto stride = static_cast<size_t>(columns) * static_cast<size_t>(samples);
+  T* const data = arena->Take<T>(stride, static_cast<size_t>(rows));
+  if (data == nullptr) return {};
+  std::memset(data, 0, stride * static_cast<size_t>(rows) * sizeof(T));
+  return {data + kBorder * (static_cast<ptrdiff_t>(stride) + samples), stride};
+}
+
+}  // namespace
+
+void PadColours(const FullConfig& config, const Plane<uint8_t>& rgb) {
+  const int32_t width = config.width, height = config.height;
+  const int32_t right = MotionBlocks(width) * kBlock, bottom = MotionBlocks(height) * kBlock;
+  for (int32_t y = 0; y < height; ++y) {
+    for (int32_t x = -kBlock - 1; x < right + kBlock + 1; x = x == -1 ? width : x + 1) {
+      std::memcpy(PixelAt(rgb, x, y), PixelAt(rgb, x < 0 ? 0 : width - 1, y), 3);
+    }
+  }
+  const auto bytes = static_cast<size_t>(3 * (right + 2 * kBlock + 2));
+  for (int32_t y = -kBlock - 1; y < bottom + kBlock + 1; y = y == -1 ? height : y + 1) {
+    std::memcpy(PixelAt(rgb, -kBlock - 1, y), PixelAt(rgb, -kBlock - 1, y < 0 ? 0 : height - 1),
+                bytes);
+  }
+}
+
+void TakeStabiliser(const FullConfig& config, Arena* arena, Stabiliser* s) {
+  const auto width = static_cast<size_t>(config.width), height = static_cast<size_t>(config.height);
+  s->config = config;
+  s->kernels = &simd::BestDepthKernels();
+  s->jobs = arena->Take<Jobs>(1);
+  const auto bands = static_cast<size_t>(MotionBlocks(config.height));
+  auto* const progress = arena->Take<std::atomic<uint32_t>>(ProgressWords(bands));
+  for (StableFrame& frame : s->frames) {
+    frame.rgb = TakePadded<uint8_t>(config, 3, arena);
+    frame.disparity = TakePadded<int16_t>(config, 1, arena);
+    frame.luma = TakePyramid(config.width, config.height, arena);
+    frame.other = {arena->Take<int16_t>(width, height), width};
+    frame.count = {arena->Take<uint8_t>(width, height), width};
+    frame.others = {arena->Take<uint8_t>(width, height), width};
+    frame.coverage = {arena->Take<uint8_t>(width, height), width};
+  }
+  s->given = TakePadded<int16_t>(config, 1, arena);
+  s->coverage = {arena->Take<uint8_t>(width, height), width};
+  s->columns = arena->Take<uint32_t>(width);
+  TakeMotion(s->frames[0].luma, arena, s->motion);
+  s->sums = arena->Take<DriftSums>(bands);
+  s->followed = arena->Take<int64_t>(bands);
+  if (s->jobs == nullptr) return;
+  new (s->jobs) Jobs();
+  s->jobs->max_workers = config.max_workers;
+  s->jobs->progress = progress;
+}
+
+namespace {
+
+// Returns the largest difference between disparities of one surface in the map of the next frame.
+int32_t ToleranceOf(const Stabiliser& s) {
+  int32_t least = INT16_MAX, most = INT16_MIN;
+  for (int32_t y = 0; y < s.config.height; ++y) {
+    const int16_t* const row = s.given.Row(y);
+    for (int32_t x = 0; x < s.config.width; ++x) {
+      if (row[x] == simd::kNoSurface) continue;
+      least = Min(least, row[x]);
+      most = Max(most, row[x]);
+    }
+  }
+  return Max(1 << kDisparityBits, (most - least) / 16);
+}
+
+// Returns the change of all disparities of the map since the frame before.
+starfocus_status FindDrift(const Stabiliser& s, Drift* drift) {
+  const int32_t rows = MotionBlocks(s.config.height), tolerance = s.tolerance;
+  *drift = {};
+  for (int32_t pass = 0; pass < 3; ++pass) {
+    const int32_t reach = pass == 0 ? 3 * tolerance : tolerance;
+    const starfocus_status status = ForEach(
+        rows, s.jobs, [&](int32_t row, int32_t) { s.sums[row] = SumDrift(s, row, reach, *drift); });
+    if (status != STARFOCUS_OK) return status;
+    DriftSums sum = {};
+    for (int32_t row = 0; row < rows; ++row) {
+      sum.count += s.sums[row].count;
+      sum.x += s.sums[row].x;
+      sum.y += s.sums[row].y;
+      sum.xx += s.sums[row].xx;
+      sum.xy += s.sums[row].xy;
+    }
+    *drift = FitDrift(sum);
+  }
+  return STARFOCUS_OK;
+}
+
+// Fuses a row of blocks. Returns the number of pixels that keep their surface.
+int64_t FuseRow(const Stabiliser& s, int32_t row, const Fusion& fusion) {
+  const StableFrame& now = s.frames[1 - s.current];
+  const int32_t last = Min(s.config.height, (row + 1) * kMotionBlock);
+  int64_t kept = 0;
+  for (int32_t y = row * kMotionBlock; y < last; ++y) {
+    const int16_t* const given = s.given.Row(y);
+    int16_t *const disparity = now.disparity.Row(y), *const other = now.other.Row(y);
+    uint8_t *const count = now.count.Row(y), *const others = now.others.Row(y);
+    for (int32_t x = 0; x < s.config.width; ++x) {
+      const int32_t counted = count[x];
+      const bool keeps = fusion.Fuse(given[x], disparity + x, count + x, other + x, others + x);
+      kept += keeps ? 1 : 0;
+      if (!s.has_coverage) continue;
+      uint8_t& coverage = now.coverage.Row(y)[x];
+      const int32_t measured = s.coverage.Row(y)[x];
+      const int32_t weight = keeps ? Min(counted, 2) + 1 : 1;
+      coverage = static_cast<uint8_t>(coverage + Fusion::Rounded(measured - coverage, weight));
+    }
+  }
+  return kept;
+}
+
+}  // namespace
+
+starfocus_status Stabilise(Stabiliser* s, StabiliserReport* report) {
+  *report = {};
+  const StableFrame &before = s->frames[s->current], &now = s->frames[1 - s->current];
+  const int32_t rows = MotionBlocks(s->config.height);
+  const int64_t pixels = int64_t{s->config.width} * s->config.height;
+  int32_t length = s->length;
+  s->tolerance = ToleranceOf(*s);
+  starfocus_status status = FillPyramid({now.rgb.data, now.rgb.stride, 0, 0}, now.luma, s->jobs);
+  if (length > 0) {
+    if (status == STARFOCUS_OK)
+      status = FindMotion(*s->kernels, before.luma, now.luma, s->motion, s->jobs);
+    if (status == STARFOCUS_OK) {
+      status = ForEach(rows, s->jobs, [&](int32_t row, int32_t) {
+        s->followed[row] = 0;
+        for (int32_t column = 0; column < s->motion[0].columns; ++column) {
+          s->followed[row] += FollowBlock(*s, column, row);
+        }
+      });
+    }
+    if (status != STARFOCUS_OK) return status;
+    for (int32_t row = 0; row < rows; ++row) report->followed += s->followed[row];
+    report->is_cut = 5 * report->followed < 2 * pixels;
+  }
+  if (length == 0 || report->is_cut) {
+    length = 0;
+    report->followed = 0;
+    for (int32_t y = 0; y < s->config.height; ++y) {
+      std::memset(now.count.Row(y), 0, static_cast<size_t>(s->config.width));
+    }
+  }
+  Drift& drift = report->drift;
+  if (status == STARFOCUS_OK && length > 0) status = FindDrift(*s, &drift);
+  // The mean scale of all maps since the start is kept, so what is known changes, too.
+  const int32_t parts = length + 1;
+  const Fusion fusion = {s->tolerance,
+                         {drift.scale - drift.scale / parts, drift.offset - drift.offset / parts},
+                         {-drift.scale / parts, -drift.offset / parts}};
+  if (status == STARFOCUS_OK) {
+    status = ForEach(rows, s->jobs,
+                     [&](int32_t row, int32_t) { s->followed[row] = FuseRow(*s, row, fusion); });
+  }
+  if (status != STARFOCUS_OK) return status;
+  for (int32_t row = 0; row < rows; ++row) report->kept += s->followed[row];
+  s->length = Min(length + 1, kMostLength);
+  s->current = 1 - s->current;
+  return STARFOCUS_OK;
+}
+
+}  // namespace starfocus
