@@ -147,7 +147,8 @@ m32() {
 
 wasm() {
   NODE_PATH=/usr/share/nodejs
-  export NODE_PATH
+  EMSDK_PYTHON=/usr/bin/python3
+  export NODE_PATH EMSDK_PYTHON
   library wasm "-DCMAKE_TOOLCHAIN_FILE=$sources/toolchains/wasm-emscripten.cmake"
   project 'WebAssembly SIMD, C' package C -DKIND=static \
     "-DCMAKE_TOOLCHAIN_FILE=$sources/toolchains/wasm-emscripten.cmake" \
