@@ -95,6 +95,9 @@ Words Refocused(test::Engine* engine, const starfocus::Params& params, DeepField
   return out;
 }
 
+// Rows of scenes of several superblocks; slow builds have superblocks only across.
+constexpr int kRows = test::kSlow ? 60 : 140;
+
 const auto kExpand = [](uint16_t* to, const uint8_t* codes) {
   for (int c = 0; c < 3; ++c) to[c] = uint16_t(257 * codes[c]);
 };
@@ -111,7 +114,7 @@ auto Bright(double gain) {
 TEST_CASE("deep: codes of 8 bits in 16 bits give the picture of 8 bits") {
   for (const starfocus_mode mode : test::kModes) {
     for (const int views : {1, 5}) {
-      const test::Scene scene = test::LayeredScene(150, 140, views, 8, 21);
+      const test::Scene scene = test::LayeredScene(150, kRows, views, 8, 21);
       const starfocus::Params params = test::Params(3, 1, mode);
       const test::Output expected = test::OutputOf(test::ConfigFor(scene, 24), params, scene);
       DeepField field(scene, STARFOCUS_FORMAT_RGB16, kExpand);
@@ -193,7 +196,7 @@ TEST_CASE("deep: light beyond white is refocused like light below it") {
   for (const int views : {1, 5}) {
     for (const starfocus_mode mode : test::kModes) {
       if (test::kSlow && views > 1 && mode != STARFOCUS_MODE_BLOCK) continue;
-      const test::Scene scene = test::LayeredScene(150, 140, views, 8, 23);
+      const test::Scene scene = test::LayeredScene(150, kRows, views, 8, 23);
       test::Config config = DeepConfig(scene);
       config.features &= ~STARFOCUS_FEATURE_COVERAGE;  // which depends on colours
       test::Engine engine(config);

@@ -6,6 +6,7 @@
 #include "tests/operations/map_operations.h"
 #include "tests/operations/picture_operations.h"
 #include "tests/operations/random_cases.h"
+#include "tests/support/sanitizers.h"
 #include "tests/support/simd_targets.h"
 
 namespace operations_bytes_test {
@@ -14,14 +15,15 @@ namespace {
 using namespace properties;
 
 TEST_CASE("ways: random calls with random conditions return the bytes of the whole picture") {
-  ForRandomCases(1000, [](test::Random* random) {
+  // Sanitizers take ten times as long. The fuzz target `differential` draws more of these cases.
+  ForRandomCases(test::kSanitized ? 300 : 1000, [](test::Random* random) {
     const Case of = RandomCase(random);
     for (int k = 0; k < 3; ++k) CheckAnyCall(of, random);
   });
 }
 
 TEST_CASE("ways: frames and regions of many blocks have the bytes of the whole picture") {
-  ForRandomCases(60, [](test::Random* random) {
+  ForRandomCases(test::kSlow ? 20 : 60, [](test::Random* random) {
     Case of = RandomCase({260, 12, 8, 100}, random);
     of.config.superblock = 32;
     if (of.params.study.mode == STARFOCUS_MODE_BENCHMARK)
