@@ -128,6 +128,7 @@ TEST_CASE("pictures: every SIMD target returns the bytes of the reference kernel
 
 TEST_CASE("maps: bytes do not depend on SIMD target, mirroring, or earlier data in the memory") {
   std::vector<Setup> setups(1);
+  // Mirroring and earlier data have the same effect on every machine.
   if (!test::kSlow) {
     setups.resize(4);
     setups[1].used = true;
