@@ -12,6 +12,7 @@
 #include "tests/conformance/conformance.h"
 #include "tests/support/config.h"
 #include "tests/support/error_line.h"
+#include "tests/support/rounds.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/test_scene.h"
 #ifdef STARFOCUS_PROGRAM
@@ -39,7 +40,7 @@ TEST_CASE("conformance: random light fields and lenses match the reference") {
 }
 
 TEST_CASE("conformance: whole pictures rendered by line scans match the reference") {
-  CheckRandom(1, test::kSanitized ? 20 : 150, Kind::kPaper).Report("line scans");
+  CheckRandom(1, test::kSanitized ? 20 : test::kSlow ? 50 : 150, Kind::kPaper).Report("line scans");
 }
 
 // The largest subapertures, and the smallest and largest blocks, which the cost of a block decides.
