@@ -7,8 +7,8 @@
 #include <new>
 #include <string>
 
-#include "platform/result.h"
 #include "platform/light_field.h"
+#include "platform/result.h"
 #include "platform/runner.h"
 #include "starfocus/video.h"
 
