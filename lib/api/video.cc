@@ -100,23 +100,24 @@ uint32_t ReadFrame(const starfocus_light_field& frame, Stabiliser* s) {
 void WriteMap(const Stabiliser& s, starfocus_disparity_output* map) {
   const StableFrame& now = s.frames[s.current];
   const auto low = MinDisparity(s.config), high = MaxDisparity(s.config);
+  const auto width = static_cast<size_t>(s.config.width);
+  constexpr float kPixel = 1.0F / (1 << kDisparityBits);
   for (int32_t y = 0; y < s.config.height; ++y) {
-    float* const row = map->disparity + static_cast<size_t>(y) * (map->disparity_stride / 4);
-    for (int32_t x = 0; x < s.config.width; ++x) {
-      const int32_t count = now.count.Row(y)[x], others = now.others.Row(y)[x];
-      const float value =
-          static_cast<float>(now.disparity.Row(y)[x]) / static_cast<float>(1 << kDisparityBits);
-      row[x] = count == 0     ? std::numeric_limits<float>::quiet_NaN()
-               : value < low  ? low
-               : value > high ? high
-                              : value;
-      if (map->confidence == nullptr) continue;
-      map->confidence[static_cast<size_t>(y) * map->confidence_stride + static_cast<size_t>(x)] =
-          static_cast<uint8_t>(count < 2 ? 0 : 255 * count / (count + others));
+    const auto row = static_cast<size_t>(y);
+    float* const out = map->disparity + row * (map->disparity_stride / sizeof(float));
+    const int16_t* const disparity = now.disparity.Row(y);
+    const uint8_t *const count = now.count.Row(y), *const others = now.others.Row(y);
+    for (size_t x = 0; x < width; ++x) {
+      const float value = static_cast<float>(disparity[x]) * kPixel;
+      out[x] = value < low ? low : value > high ? high : value;
+      if (count[x] == 0) out[x] = std::numeric_limits<float>::quiet_NaN();
+    }
+    for (size_t x = 0; map->confidence != nullptr && x < width; ++x) {
+      const int share = count[x] < 2 ? 0 : 255 * count[x] / (count[x] + others[x]);
+      map->confidence[row * map->confidence_stride + x] = static_cast<uint8_t>(share);
     }
     if (map->coverage == nullptr || !s.has_coverage) continue;
-    std::memcpy(map->coverage + static_cast<size_t>(y) * map->coverage_stride, now.coverage.Row(y),
-                static_cast<size_t>(s.config.width));
+    std::memcpy(map->coverage + row * map->coverage_stride, now.coverage.Row(y), width);
   }
   map->has_coverage = map->coverage != nullptr && s.has_coverage ? 1 : 0;
 }

@@ -10,10 +10,6 @@
 namespace starfocus {
 namespace {
 
-// Measurements that count for a mean: more would hide that a surface comes nearer.
-constexpr int32_t kMostCount = 8;
-// Measurements after which another surface takes over at the latest.
-constexpr int32_t kMostVotes = 4;
 // Frames that count for the mean scale of maps.
 constexpr int32_t kMostLength = 8;
 
@@ -42,6 +38,34 @@ struct Candidates {
 constexpr auto kBlock = static_cast<int32_t>(simd::kFollowed);
 static_assert(kBlock == kMotionBlock);
 
+// Copies what is known of the pixels of `block` that have a cost. Returns their number.
+int32_t CopyBlock(const Stabiliser& s, const Rect& block, const Motion* motions,
+                  const uint16_t* costs, const uint16_t* choices) {
+  const StableFrame &before = s.frames[s.current], &now = s.frames[1 - s.current];
+  const Rect part = Clipped(block, s.config.width, s.config.height);
+  int32_t followed = 0;
+  for (int32_t y = part.y; y < part.y + part.height; ++y) {
+    const ptrdiff_t row = ptrdiff_t{y} * s.config.width;  // of the planes without a border
+    const int32_t first = kBlock * (y - block.y) - block.x;
+    for (int32_t x = part.x; x < part.x + part.width; ++x) {
+      const ptrdiff_t at = row + x;
+      now.count.data[at] = 0;
+      if (costs[first + x] == simd::kNoCost) continue;
+      const Motion& motion = motions[choices[first + x]];
+      const int32_t from_x = x + motion.across, from_y = y + motion.down;
+      if (!Contains({0, 0, s.config.width, s.config.height}, from_x, from_y)) continue;
+      ++followed;
+      const ptrdiff_t from = ptrdiff_t{from_y} * s.config.width + from_x;
+      now.count.data[at] = before.count.data[from];
+      now.other.data[at] = before.other.data[from];
+      now.others.data[at] = before.others.data[from];
+      *At(now.disparity, x, y) = *At(before.disparity, from_x, from_y);
+      if (s.has_coverage) now.coverage.data[at] = before.coverage.data[from];
+    }
+  }
+  return followed;
+}
+
 // Follows the pixels of a block to the frame before, and copies what is known of them. Returns the
 // number of pixels that continue.
 int32_t FollowBlock(const Stabiliser& s, int32_t column, int32_t row) {
@@ -60,29 +84,7 @@ int32_t FollowBlock(const Stabiliser& s, int32_t column, int32_t row) {
         before.disparity.stride};
     s.kernels->FollowBlock(block, limits, static_cast<uint16_t>(k), costs, choices);
   }
-  int32_t followed = 0;
-  ForPixels(Clipped({x0, y0, kBlock, kBlock}, s.config.width, s.config.height),
-            [&](int32_t x, int32_t y) {
-              const int32_t n = kBlock * (y - y0) + x - x0;
-              now.count.Row(y)[x] = 0;
-              if (costs[n] == simd::kNoCost) return;
-              const Motion& motion = candidates.motions[choices[n]];
-              const int32_t from_x = x + motion.across, from_y = y + motion.down;
-              if (!Contains({0, 0, s.config.width, s.config.height}, from_x, from_y)) return;
-              ++followed;
-              now.count.Row(y)[x] = before.count.Row(from_y)[from_x];
-              now.disparity.Row(y)[x] = before.disparity.Row(from_y)[from_x];
-              now.other.Row(y)[x] = before.other.Row(from_y)[from_x];
-              now.others.Row(y)[x] = before.others.Row(from_y)[from_x];
-              if (s.has_coverage) now.coverage.Row(y)[x] = before.coverage.Row(from_y)[from_x];
-            });
-  return followed;
-}
-
-int32_t Drifted(const Drift& drift, int32_t disparity) {
-  return disparity + drift.offset +
-         static_cast<int32_t>((int64_t{drift.scale} * disparity + (1 << (kDriftBits - 1))) >>
-                              kDriftBits);
+  return CopyBlock(s, {x0, y0, kBlock, kBlock}, candidates.motions, costs, choices);
 }
 
 // Adds the pixels of a row of blocks whose surface continues within `tolerance`, to find the change
@@ -120,52 +122,6 @@ Drift FitDrift(const DriftSums& s) {
   const double offset = mean_y - scale * mean_x;
   return {static_cast<int32_t>(scale * (1 << kDriftBits)), static_cast<int32_t>(offset)};
 }
-
-// Fuses the measurement of a pixel.
-struct Fusion {
-  int32_t tolerance;
-  Drift of_map, of_before;  // changes of the map and of what is known to their mean scale
-
-  // Returns true if the pixel keeps its surface.
-  bool Fuse(int32_t given, int16_t* disparity, uint8_t* count, int16_t* other,
-            uint8_t* others) const {
-    const bool is_known = given != simd::kNoSurface;
-    const int32_t measured = is_known ? Drifted(of_map, given) : 0;
-    if (*count == 0) {
-      *disparity = static_cast<int16_t>(measured);
-      *count = is_known ? 1 : 0;
-      *other = 0;
-      *others = 0;
-      return false;
-    }
-    int32_t own = Drifted(of_before, *disparity), second = Drifted(of_before, *other);
-    bool keeps = true;
-    if (is_known && std::abs(measured - own) <= tolerance) {
-      own += Rounded(measured - own, *count + 1);
-      *count = static_cast<uint8_t>(Min(*count + 1, kMostCount));
-      *others = static_cast<uint8_t>(Max(*others - 1, 0));
-    } else if (is_known) {
-      const bool joins = *others > 0 && std::abs(measured - second) <= tolerance;
-      second = joins ? second + Rounded(measured - second, *others + 1) : measured;
-      *others = static_cast<uint8_t>(joins ? Min(*others + 1, kMostCount) : 1);
-      if (*others > Min(*count, kMostVotes)) {
-        std::swap(own, second);
-        std::swap(*count, *others);
-        keeps = false;
-      } else if (*count > 1) {
-        --*count;
-      }
-    }
-    *disparity = static_cast<int16_t>(own);
-    *other = static_cast<int16_t>(second);
-    return keeps;
-  }
-
-  // Returns value / count, rounded to the nearest.
-  static int32_t Rounded(int32_t value, int32_t count) {
-    return (2 * value + (value < 0 ? -count : count)) / (2 * count);
-  }
-};
 
 // Takes a plane of whole blocks with a border, which blocks beside the picture read.
 template <class T>
@@ -215,6 +171,7 @@ void TakeStabiliser(const FullConfig& config, Arena* arena, Stabiliser* s) {
   }
   s->given = TakePadded<int16_t>(config, 1, arena);
   s->coverage = {arena->Take<uint8_t>(width, height), width};
+  s->relations = {arena->Take<uint8_t>(width, height), width};
   s->columns = arena->Take<uint32_t>(width);
   TakeMotion(s->frames[0].luma, arena, s->motion);
   s->sums = arena->Take<DriftSums>(bands);
@@ -263,29 +220,6 @@ starfocus_status FindDrift(const Stabiliser& s, Drift* drift) {
   return STARFOCUS_OK;
 }
 
-// Fuses a row of blocks. Returns the number of pixels that keep their surface.
-int64_t FuseRow(const Stabiliser& s, int32_t row, const Fusion& fusion) {
-  const StableFrame& now = s.frames[1 - s.current];
-  const int32_t last = Min(s.config.height, (row + 1) * kMotionBlock);
-  int64_t kept = 0;
-  for (int32_t y = row * kMotionBlock; y < last; ++y) {
-    const int16_t* const given = s.given.Row(y);
-    int16_t *const disparity = now.disparity.Row(y), *const other = now.other.Row(y);
-    uint8_t *const count = now.count.Row(y), *const others = now.others.Row(y);
-    for (int32_t x = 0; x < s.config.width; ++x) {
-      const int32_t counted = count[x];
-      const bool keeps = fusion.Fuse(given[x], disparity + x, count + x, other + x, others + x);
-      kept += keeps ? 1 : 0;
-      if (!s.has_coverage) continue;
-      uint8_t& coverage = now.coverage.Row(y)[x];
-      const int32_t measured = s.coverage.Row(y)[x];
-      const int32_t weight = keeps ? Min(counted, 2) + 1 : 1;
-      coverage = static_cast<uint8_t>(coverage + Fusion::Rounded(measured - coverage, weight));
-    }
-  }
-  return kept;
-}
-
 }  // namespace
 
 starfocus_status Stabilise(Stabiliser* s, StabiliserReport* report) {
@@ -322,12 +256,30 @@ starfocus_status Stabilise(Stabiliser* s, StabiliserReport* report) {
   if (status == STARFOCUS_OK && length > 0) status = FindDrift(*s, &drift);
   // The mean scale of all maps since the start is kept, so what is known changes, too.
   const int32_t parts = length + 1;
-  const Fusion fusion = {s->tolerance,
+  const Fusion fusion = {s->config.width,
+                         s->config.height,
+                         s->tolerance,
                          {drift.scale - drift.scale / parts, drift.offset - drift.offset / parts},
-                         {-drift.scale / parts, -drift.offset / parts}};
+                         {-drift.scale / parts, -drift.offset / parts},
+                         s->given,
+                         now.disparity,
+                         now.other,
+                         now.count,
+                         now.others,
+                         s->relations,
+                         s->coverage,
+                         s->has_coverage ? now.coverage : Plane<uint8_t>()};
+  const auto rows_of = [&](int32_t row) {
+    return Range{row * kMotionBlock, Min((row + 1) * kMotionBlock, s->config.height)};
+  };
   if (status == STARFOCUS_OK) {
-    status = ForEach(rows, s->jobs,
-                     [&](int32_t row, int32_t) { s->followed[row] = FuseRow(*s, row, fusion); });
+    status =
+        ForEach(rows, s->jobs, [&](int32_t row, int32_t) { RelateRows(fusion, rows_of(row)); });
+  }
+  if (status == STARFOCUS_OK) {
+    status = ForEach(rows, s->jobs, [&](int32_t row, int32_t) {
+      s->followed[row] = FuseRows(fusion, rows_of(row));
+    });
   }
   if (status != STARFOCUS_OK) return status;
   for (int32_t row = 0; row < rows; ++row) report->kept += s->followed[row];

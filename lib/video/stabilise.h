@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Disparity maps of a video that do not flicker: the map of a frame is fused with the maps of the
 // frames before it, which follow the motion of the picture.
-//
-// Each pixel has a surface, which is the mean of the disparities that were measured on it, and the
-// number of these measurements. A measurement on another surface does not change the disparity at
-// once, because the outlines of maps change from frame to frame: it counts for the other surface,
-// which takes over as soon as it has more measurements.
 #ifndef STARFOCUS_LIB_VIDEO_STABILISE_H_
 #define STARFOCUS_LIB_VIDEO_STABILISE_H_
 
@@ -16,6 +11,7 @@
 #include "lib/base/config.h"
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
+#include "lib/video/fuse.h"
 #include "lib/video/motion.h"
 #include "simd/kernels.h"
 
@@ -35,13 +31,6 @@ struct DriftSums {
   int64_t count, x, y, xx, xy;
 };
 
-// The change of all disparities of a map: d + (scale d >> kDriftBits) + offset is the disparity on
-// the scale of the frames before.
-struct Drift {
-  int32_t scale, offset;
-};
-inline constexpr int kDriftBits = 16;
-
 struct StabiliserReport {
   int64_t followed, kept;  // Pixels that continue a pixel of the frame before; with its surface.
   bool is_cut;             // No surface continues.
@@ -60,7 +49,8 @@ struct Stabiliser {
   int32_t length;           // number of frames since the start or the last cut, limited
   Plane<int16_t> given;     // disparities of the map of the next frame, kNoSurface: unknown
   Plane<uint8_t> coverage;  // its coverage, if has_coverage is true
-  uint32_t* columns;        // see DepthSource::columns
+  Plane<uint8_t> relations;
+  uint32_t* columns;  // see DepthSource::columns
   MotionField motion[kMotionLevels];
   DriftSums* sums;  // of each band
   int64_t* followed;
