@@ -175,7 +175,7 @@ void TakeStabiliser(const FullConfig& config, Arena* arena, Stabiliser* s) {
   s->columns = arena->Take<uint32_t>(width);
   TakeMotion(s->frames[0].luma, arena, s->motion);
   s->sums = arena->Take<DriftSums>(bands);
-  s->followed = arena->Take<int64_t>(bands);
+  s->sums_of_rows = arena->Take<int64_t>(bands);
   if (s->jobs == nullptr) return;
   new (s->jobs) Jobs();
   s->jobs->max_workers = config.max_workers;
@@ -220,69 +220,84 @@ starfocus_status FindDrift(const Stabiliser& s, Drift* drift) {
   return STARFOCUS_OK;
 }
 
+// Calls work(row) for each row of blocks, and adds the results to *sum.
+template <class Work>
+starfocus_status AddRows(const Stabiliser& s, const Work& work, int64_t* sum) {
+  const int32_t rows = MotionBlocks(s.config.height);
+  const starfocus_status status =
+      ForEach(rows, s.jobs, [&](int32_t row, int32_t) { s.sums_of_rows[row] = work(row); });
+  if (status != STARFOCUS_OK) return status;
+  for (int32_t row = 0; row < rows; ++row) *sum += s.sums_of_rows[row];
+  return STARFOCUS_OK;
+}
+
+// Follows the pixels of the next frame to the current frame. Sets *followed to their number.
+starfocus_status FollowFrame(const Stabiliser& s, int64_t* followed) {
+  const StableFrame &before = s.frames[s.current], &now = s.frames[1 - s.current];
+  const starfocus_status status = FindMotion(*s.kernels, before.luma, now.luma, s.motion, s.jobs);
+  if (status != STARFOCUS_OK) return status;
+  const auto follow = [&](int32_t row) {
+    int64_t sum = 0;
+    for (int32_t column = 0; column < s.motion[0].columns; ++column) {
+      sum += FollowBlock(s, column, row);
+    }
+    return sum;
+  };
+  return AddRows(s, follow, followed);
+}
+
+// Fuses the next frame. Adds the pixels that keep their surface to *kept.
+starfocus_status FuseFrame(const Stabiliser& s, int32_t length, const Drift& drift, int64_t* kept) {
+  const StableFrame& now = s.frames[1 - s.current];
+  // The mean scale of all maps since the start is kept, so what is known changes, too.
+  const int32_t parts = length + 1;
+  const Fusion fusion = {s.config.width,
+                         s.config.height,
+                         s.tolerance,
+                         {drift.scale - drift.scale / parts, drift.offset - drift.offset / parts},
+                         {-drift.scale / parts, -drift.offset / parts},
+                         s.given,
+                         now.disparity,
+                         now.other,
+                         now.count,
+                         now.others,
+                         s.relations,
+                         s.coverage,
+                         s.has_coverage ? now.coverage : Plane<uint8_t>()};
+  const auto rows_of = [&](int32_t row) {
+    return Range{row * kMotionBlock, Min((row + 1) * kMotionBlock, s.config.height)};
+  };
+  const starfocus_status status =
+      ForEach(MotionBlocks(s.config.height), s.jobs,
+              [&](int32_t row, int32_t) { RelateRows(fusion, rows_of(row)); });
+  if (status != STARFOCUS_OK) return status;
+  return AddRows(
+      s, [&](int32_t row) { return FuseRows(fusion, rows_of(row)); }, kept);
+}
+
 }  // namespace
 
 starfocus_status Stabilise(Stabiliser* s, StabiliserReport* report) {
   *report = {};
-  const StableFrame &before = s->frames[s->current], &now = s->frames[1 - s->current];
-  const int32_t rows = MotionBlocks(s->config.height);
+  const StableFrame& now = s->frames[1 - s->current];
   const int64_t pixels = int64_t{s->config.width} * s->config.height;
   int32_t length = s->length;
   s->tolerance = ToleranceOf(*s);
   starfocus_status status = FillPyramid({now.rgb.data, now.rgb.stride, 0, 0}, now.luma, s->jobs);
-  if (length > 0) {
-    if (status == STARFOCUS_OK)
-      status = FindMotion(*s->kernels, before.luma, now.luma, s->motion, s->jobs);
-    if (status == STARFOCUS_OK) {
-      status = ForEach(rows, s->jobs, [&](int32_t row, int32_t) {
-        s->followed[row] = 0;
-        for (int32_t column = 0; column < s->motion[0].columns; ++column) {
-          s->followed[row] += FollowBlock(*s, column, row);
-        }
-      });
-    }
-    if (status != STARFOCUS_OK) return status;
-    for (int32_t row = 0; row < rows; ++row) report->followed += s->followed[row];
-    report->is_cut = 5 * report->followed < 2 * pixels;
-  }
+  if (status == STARFOCUS_OK && length > 0) status = FollowFrame(*s, &report->followed);
+  if (status != STARFOCUS_OK) return status;
+  report->is_cut = length > 0 && 5 * report->followed < 2 * pixels;
   if (length == 0 || report->is_cut) {
     length = 0;
     report->followed = 0;
     for (int32_t y = 0; y < s->config.height; ++y) {
       std::memset(now.count.Row(y), 0, static_cast<size_t>(s->config.width));
     }
+  } else {
+    status = FindDrift(*s, &report->drift);
   }
-  Drift& drift = report->drift;
-  if (status == STARFOCUS_OK && length > 0) status = FindDrift(*s, &drift);
-  // The mean scale of all maps since the start is kept, so what is known changes, too.
-  const int32_t parts = length + 1;
-  const Fusion fusion = {s->config.width,
-                         s->config.height,
-                         s->tolerance,
-                         {drift.scale - drift.scale / parts, drift.offset - drift.offset / parts},
-                         {-drift.scale / parts, -drift.offset / parts},
-                         s->given,
-                         now.disparity,
-                         now.other,
-                         now.count,
-                         now.others,
-                         s->relations,
-                         s->coverage,
-                         s->has_coverage ? now.coverage : Plane<uint8_t>()};
-  const auto rows_of = [&](int32_t row) {
-    return Range{row * kMotionBlock, Min((row + 1) * kMotionBlock, s->config.height)};
-  };
-  if (status == STARFOCUS_OK) {
-    status =
-        ForEach(rows, s->jobs, [&](int32_t row, int32_t) { RelateRows(fusion, rows_of(row)); });
-  }
-  if (status == STARFOCUS_OK) {
-    status = ForEach(rows, s->jobs, [&](int32_t row, int32_t) {
-      s->followed[row] = FuseRows(fusion, rows_of(row));
-    });
-  }
+  if (status == STARFOCUS_OK) status = FuseFrame(*s, length, report->drift, &report->kept);
   if (status != STARFOCUS_OK) return status;
-  for (int32_t row = 0; row < rows; ++row) report->kept += s->followed[row];
   s->length = Min(length + 1, kMostLength);
   s->current = 1 - s->current;
   return STARFOCUS_OK;

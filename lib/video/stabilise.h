@@ -52,8 +52,8 @@ struct Stabiliser {
   Plane<uint8_t> relations;
   uint32_t* columns;  // see DepthSource::columns
   MotionField motion[kMotionLevels];
-  DriftSums* sums;  // of each band
-  int64_t* followed;
+  DriftSums* sums;        // of each row of blocks
+  int64_t* sums_of_rows;  // of pixels
   bool has_coverage;
 };
 
