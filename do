@@ -18,6 +18,7 @@
 #           --check   only compares instruction counts with examples/lab/bench/baseline.txt
 #           --record  writes that file anew
 #           --micro   only times kernels, the line scan and small pictures
+#           --flicker only measures the flicker of a clip, and compares it with examples/lab/bench/flicker.txt
 #   golden  record tests/lib/golden.txt anew, after an intended change of the engine's output
 #   format  clang-format every source file, and name the licence in new ones
 #   lint    check that no file or function is too large, and print the sizes of lib and simd by room

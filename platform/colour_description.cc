@@ -8,11 +8,10 @@
 #include <iterator>
 #include <optional>
 
+#include "platform/matrix.h"
+
 namespace starfocus {
 namespace {
-
-using Vector = std::array<double, 3>;
-using Matrix = std::array<Vector, 3>;  // rows
 
 // Primaries of H.273, table 2.
 struct Primaries {
@@ -93,48 +92,6 @@ std::optional<Transfer> TransferRowOf(const ColourDescription& colours) {
   return found == nullptr ? std::nullopt : std::optional(*found);
 }
 
-double Determinant(const Matrix& m) {
-  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-         m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-}
-
-Matrix Inverse(const Matrix& m) {
-  const double factor = 1 / Determinant(m);
-  Matrix inverse;
-  for (size_t i = 0; i < 3; ++i) {
-    for (size_t j = 0; j < 3; ++j) {
-      const size_t r = (j + 1) % 3, s = (j + 2) % 3, p = (i + 1) % 3, q = (i + 2) % 3;
-      inverse[i][j] = factor * (m[r][p] * m[s][q] - m[r][q] * m[s][p]);
-    }
-  }
-  return inverse;
-}
-
-Vector Product(const Matrix& m, const Vector& v) {
-  Vector result;
-  for (size_t i = 0; i < 3; ++i) result[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
-  return result;
-}
-
-Matrix Product(const Matrix& a, const Matrix& b) {
-  Matrix result = {};
-  for (size_t i = 0; i < 3; ++i) {
-    for (size_t j = 0; j < 3; ++j) {
-      for (size_t k = 0; k < 3; ++k) result[i][j] += a[i][k] * b[k][j];
-    }
-  }
-  return result;
-}
-
-// Returns a matrix that multiplies the i-th coordinate by factors[i].
-Matrix Diagonal(const Vector& factors) {
-  return {{{factors[0], 0, 0}, {0, factors[1], 0}, {0, 0, factors[2]}}};
-}
-
-// White of the profile connection space (ICC.1:2022, 7.2.16).
-constexpr Vector kD50 = {0.9642, 1, 0.8249};
-
 // Matrices of a profile: chromatic adaptation, and RGB to adapted XYZ.
 struct Colorimetry {
   Matrix adaptation, to_xyz;
@@ -148,8 +105,6 @@ std::optional<Colorimetry> ColorimetryOf(const Chromaticities& at) {
   constexpr int32_t kLeast = -100000, kMost = 200000;
   const auto is_usual = [](int32_t value) { return value >= kLeast && value <= kMost; };
   if (!std::all_of(at.begin(), at.end(), is_usual)) return std::nullopt;
-  constexpr Matrix kBradford = {
-      {{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}};
   Matrix primaries;
   for (size_t c = 0; c < 3; ++c) {
     primaries[0][c] = kUnit * at[2 * c];
@@ -160,10 +115,8 @@ std::optional<Colorimetry> ColorimetryOf(const Chromaticities& at) {
   if (!(y > 0) || std::fabs(Determinant(primaries)) < 1e-6) return std::nullopt;
   const Vector white = {x / y, 1, (1 - x - y) / y};
   const Matrix native = Product(primaries, Diagonal(Product(Inverse(primaries), white)));
-  const Vector from = Product(kBradford, white), to = Product(kBradford, kD50);
-  const Vector gain = {to[0] / from[0], to[1] / from[1], to[2] / from[2]};
   Colorimetry result;
-  result.adaptation = Product(Inverse(kBradford), Product(Diagonal(gain), kBradford));
+  result.adaptation = AdaptationToD50(white);
   result.to_xyz = Product(result.adaptation, native);
   for (const Matrix& matrix : {result.adaptation, result.to_xyz}) {
     for (const Vector& row : matrix) {
@@ -277,16 +230,19 @@ bool IsNear(int32_t value, int32_t target, int32_t tolerance) {
   return std::abs(int64_t{value} - target) <= tolerance;
 }
 
+bool IsNearAll(const Chromaticities& values, const Chromaticities& targets, int32_t tolerance) {
+  return std::equal(
+      values.begin(), values.end(), targets.begin(),
+      [tolerance](int32_t value, int32_t target) { return IsNear(value, target, tolerance); });
+}
+
 }  // namespace
 
 bool IsSrgb(const ColourDescription& colours) {
   constexpr int32_t kRounding = 10, kSrgbGamma = 220000;
   const std::optional<Primaries> primaries = PrimariesOf(colours);
   if (!primaries || !colours.full_range) return false;
-  const Chromaticities& bt709 = kPrimaries[0].at;
-  for (size_t k = 0; k < bt709.size(); ++k) {
-    if (!IsNear(primaries->at[k], bt709[k], kRounding)) return false;
-  }
+  if (!IsNearAll(primaries->at, kPrimaries[0].at, kRounding)) return false;
   if (colours.transfer != ColourDescription::kGiven) {
     return colours.transfer == kSrgbTransfer || colours.transfer == ColourDescription::kUnspecified;
   }
@@ -306,38 +262,44 @@ std::optional<Chromaticities> ChromaticitiesOf(const ColourDescription& colours)
   return primaries->at;
 }
 
-int PrimariesCodeOf(const ColourDescription& colours) {
-  constexpr int32_t kRounding = 10;
+int PrimariesCodeOf(const ColourDescription& colours, int32_t tolerance) {
   const std::optional<Primaries> primaries = PrimariesOf(colours);
   if (!primaries) return ColourDescription::kUnspecified;
   for (const Primaries& row : kPrimaries) {
-    bool equal = row.code < ColourDescription::kGiven;
-    for (size_t k = 0; k < row.at.size(); ++k) {
-      equal = equal && IsNear(primaries->at[k], row.at[k], kRounding);
-    }
-    if (equal) return row.code;
+    const bool has_code = row.code < ColourDescription::kGiven;
+    if (has_code && IsNearAll(primaries->at, row.at, tolerance)) return row.code;
   }
   return ColourDescription::kUnspecified;
 }
 
 std::string PrimariesNameOf(const ColourDescription& colours) {
   const std::optional<Primaries> primaries = PrimariesOf(colours);
-  return primaries ? primaries->name : "primaries " + std::to_string(colours.primaries);
+  if (!primaries) return "primaries " + std::to_string(colours.primaries);
+  constexpr int32_t kRounding = 100;
+  for (const Primaries& row : kPrimaries) {
+    if (IsNearAll(primaries->at, row.at, kRounding)) return row.name;
+  }
+  return primaries->name;
+}
+
+std::string TransferNameOf(const ColourDescription& colours) {
+  const std::optional<Transfer> transfer = TransferRowOf(colours);
+  if (!transfer) return std::to_string(colours.transfer);
+  if (transfer->code != ColourDescription::kGiven) return transfer->name;
+  char gamma[32];
+  std::snprintf(gamma, sizeof(gamma), "gamma %.2f", colours.gamma / 1e5);
+  return gamma;
 }
 
 std::string NameOf(const ColourDescription& colours) {
-  const std::optional<Transfer> transfer = TransferRowOf(colours);
-  std::string text = PrimariesNameOf(colours);
-  if (!transfer) {
-    text += ", transfer " + std::to_string(colours.transfer);
-  } else if (transfer->code == ColourDescription::kGiven) {
-    char gamma[32];
-    std::snprintf(gamma, sizeof(gamma), ", gamma %.2f", colours.gamma / 1e5);
-    text += gamma;
-  } else {
-    text += std::string(", transfer of ") + transfer->name;
-  }
-  return text + (colours.full_range ? "" : ", narrow range");
+  const std::string transfer = TransferNameOf(colours);
+  const bool is_gamma = colours.transfer == ColourDescription::kGiven;
+  const bool is_known = is_gamma || TransferRowOf(colours);
+  return PrimariesNameOf(colours) +
+         (is_gamma   ? ", "
+          : is_known ? ", transfer of "
+                     : ", transfer ") +
+         transfer + (colours.full_range ? "" : ", narrow range");
 }
 
 Bytes ProfileOf(const ColourDescription& colours) {

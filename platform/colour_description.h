@@ -47,11 +47,14 @@ bool IsLinear(const ColourDescription& colours);
 std::optional<Chromaticities> ChromaticitiesOf(const ColourDescription& colours);
 
 // Returns the code point of H.273 for the primaries, or kUnspecified if none has these
-// chromaticities.
-int PrimariesCodeOf(const ColourDescription& colours);
+// chromaticities within `tolerance`, in units of 1/100000.
+int PrimariesCodeOf(const ColourDescription& colours, int32_t tolerance = 10);
 
 // Returns the name of the primaries, for example "Display P3".
 std::string PrimariesNameOf(const ColourDescription& colours);
+
+// Returns the name of the transfer, for example "sRGB", "PQ" or "gamma 2.20".
+std::string TransferNameOf(const ColourDescription& colours);
 
 // Returns a description for users, for example "Display P3, transfer of sRGB".
 std::string NameOf(const ColourDescription& colours);

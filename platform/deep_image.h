@@ -47,6 +47,18 @@ struct ClippedSamples {
 // brightest sample that the target can store.
 std::string Describe(const ClippedSamples& clipped, const std::string& limit);
 
+// Numbers of pixels with light that the engine does not refocus as it is.
+struct UnusableLight {
+  int64_t not_a_number = 0;  // Counts as black.
+  int64_t negative = 0;      // Counts as black.
+  int64_t too_bright = 0;    // Brighter than kMostLight, to which it is limited.
+};
+// The brightest light that the engine refocuses (starfocus/image.h).
+inline constexpr float kMostLight = 64;
+
+// Adds the pixels of half floats with such a colour to `counts`. Codes have none.
+void CountUnusable(const DeepImage& deep, UnusableLight* counts);
+
 // Converts codes to half floats of linear light, premultiplied with alpha.
 DeepImage ToHalf(const DeepImage& codes);
 

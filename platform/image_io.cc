@@ -56,7 +56,7 @@ Error CheckExtension(const std::string& path) {
 
 Result<DecodedPicture> DecodeImage(const std::string& where, const Bytes& bytes) {
   if (bytes.empty()) return Expected(where, kFormats, "an empty file");
-  if (bytes.front() == 'P') return WithoutMetadata(DecodePpm(where, bytes));
+  if (bytes.front() == 'P') return DecodePpm(where, bytes);
   if (bytes.size() > INT_MAX) return Expected(where, "a file below 2 GiB", "a larger one");
   if (IsPng(bytes)) return DecodePng(where, bytes);
   if (IsWebp(bytes)) return DecodeWebp(where, bytes);

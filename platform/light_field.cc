@@ -10,6 +10,7 @@
 #include "platform/deep_image.h"
 #include "platform/folder.h"
 #include "platform/helper/helper.h"
+#include "platform/icc_profile.h"
 #include "platform/image_io.h"
 #include "platform/levels.h"
 #include "platform/progress.h"
@@ -54,8 +55,10 @@ struct SaveJob {
   Error Write(int32_t index) const {
     const std::string path = PathOf(index);
     if (light_field.deep.empty()) return WriteImage(path, light_field.views[size_t(index)]);
+    DeepOptions options;
+    options.picture.metadata.colours = light_field.deep_colours;
     std::vector<std::string> notes;
-    return WriteDeepImage(path, light_field.deep[size_t(index)], {}, &notes);
+    return WriteDeepImage(path, light_field.deep[size_t(index)], options, &notes);
   }
   static void Run(void* data, int32_t index, int32_t) {
     SaveJob* self = static_cast<SaveJob*>(data);
@@ -181,14 +184,19 @@ bool HasDisparity(const std::string& folder) {
 
 namespace {
 
-// Takes the deep pictures of the views, if there is any. Views of 8 bits are expanded. Codes of
-// different transfers become half floats.
+// Takes the deep pictures of the views, if there is any, and the colours of the first. Views of 8
+// bits are expanded. Codes of different transfers become half floats.
 void TakeDeep(std::vector<Result<DecodedPicture>>* views, LightField* light_field) {
   const auto is_deep = [](const Result<DecodedPicture>& view) { return view->deep.has_value(); };
   if (std::none_of(views->begin(), views->end(), is_deep)) return;
   for (size_t k = 0; k < views->size(); ++k) {
     std::optional<DeepImage>& deep = (*views)[k]->deep;
     light_field->deep.push_back(deep ? std::move(*deep) : Widen(light_field->views[k], {}));
+  }
+  const Metadata& metadata = views->front()->metadata;
+  light_field->deep_colours = metadata.colours;
+  if (metadata.colours.form.empty()) {
+    light_field->deep_colours = DescriptionOf(metadata.icc).value_or(ColourDescription());
   }
   const DeepImage& first = light_field->deep[0];
   const bool alike =

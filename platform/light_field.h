@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/colour_description.h"
 #include "platform/image.h"
 #include "platform/pfm.h"
 #include "platform/result.h"
@@ -25,6 +26,7 @@ struct LightField {
   // The only view in YUV, a frame of a video; views[0] then has a size, but no pixels. Without
   // samples, `views` has all pixels.
   PlanarImage planar;
+  ColourDescription deep_colours;  // Colours of `deep`, as the file of the centre view states them.
   Positions positions;  // positions of the views; empty: positions of starfocus_view_position
   FloatMap disparity;
   // starfocus_light_field.coverage in rows without padding; empty: no coverage
@@ -97,8 +99,9 @@ Error LoadCoverage(const std::string& path, LightField* light_field);
 Result<LightField> LoadLightField(const std::string& folder, const Positions& wanted,
                                   ThreadRunner* runner = nullptr);
 
-// Creates the folder of a light field if necessary. Writes the views, or their deep pictures if
-// there are any, as PNG or, for half floats, OpenEXR, several at a time on `runner`. Writes the
+// Creates the folder of a light field if necessary. Writes the views, or their deep pictures with
+// deep_colours if there are any, as PNG or, for half floats, OpenEXR, several at a time on
+// `runner`. Writes the
 // coverage and the disparity map of the light field unless they are empty.
 Error SaveLightField(const std::string& folder, const LightField& light_field,
                      ThreadRunner* runner);

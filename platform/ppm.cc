@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/ppm.h"
 
+#include "platform/decoders/deep.h"
 #include "platform/text_header.h"
 
 namespace starfocus {
@@ -27,7 +28,8 @@ Result<PnmHeader> ReadHeader(const std::string& path, TextHeader* text) {
     return Expected(path, "a maximum value from 1 to 65535", "'" + largest + "'");
   }
   if (header.largest > 255) header.sample_bytes = 2;
-  if (!FitsMemory(header.width, header.height, 3 * size_t(header.sample_bytes))) {
+  // 3 bytes, and 6 more if samples have 16 bits
+  if (!FitsMemory(header.width, header.height, header.sample_bytes == 1 ? 3 : 9)) {
     return OutOfMemory(path, "read it");
   }
   const size_t need = header.samples() * size_t(header.sample_bytes);
@@ -45,17 +47,27 @@ int SampleAt(const PnmHeader& header, const uint8_t* data, size_t index) {
 
 }  // namespace
 
-Result<Image> DecodePpm(const std::string& path, const Bytes& bytes) {
+Result<DecodedPicture> DecodePpm(const std::string& path, const Bytes& bytes) {
   TextHeader text(bytes);
   const Result<PnmHeader> read = ReadHeader(path, &text);
   if (!read) return read.error();
   const PnmHeader& header = *read;
-  Image image(header.width, header.height);
+  DecodedPicture picture;
+  Image& image = picture.image = Image(header.width, header.height);
+  if (header.sample_bytes == 2) picture.deep = DeepImage(header.width, header.height, 3);
+  const auto scale = [&header](int value, int64_t largest) {
+    return (value * largest + header.largest / 2) / header.largest;
+  };
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     const int value = SampleAt(header, text.data(), header.channels == 3 ? i : i / 3);
-    image.pixels[i] = static_cast<uint8_t>((value * 255 + header.largest / 2) / header.largest);
+    image.pixels[i] = static_cast<uint8_t>(scale(value, 255));
+    if (picture.deep) picture.deep->samples[i] = static_cast<uint16_t>(scale(value, 65535));
   }
-  return image;
+  if (!picture.deep) return picture;
+  int bits = 9;
+  while (header.largest >= 1 << bits) ++bits;
+  CompleteDeep(bits, &picture);
+  return picture;
 }
 
 Result<PnmSamples> DecodePnmSamples(const std::string& path, const Bytes& bytes) {

@@ -10,13 +10,14 @@
 
 #include "platform/file.h"
 #include "platform/image.h"
+#include "platform/metadata.h"
 #include "platform/result.h"
 
 namespace starfocus {
 
-// Decodes a P6 file, or converts a P5 file from grey to RGB. The maximum value may be up to 65535,
-// and samples are scaled to 8 bits. `path` appears only in error messages.
-Result<Image> DecodePpm(const std::string& path, const Bytes& bytes);
+// Decodes a P6 file, or converts a P5 file from grey to RGB. The maximum value may be up to 65535;
+// if it exceeds 255, the picture also has codes of 16 bits. `path` appears only in error messages.
+Result<DecodedPicture> DecodePpm(const std::string& path, const Bytes& bytes);
 
 // Samples of a P6 or P5 file, 0 to `largest`.
 struct PnmSamples {

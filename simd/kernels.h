@@ -23,6 +23,7 @@
 #include "simd/line_scan.h"
 #include "simd/match.h"
 #include "simd/matting.h"
+#include "simd/motion.h"
 #include "simd/paths.h"
 #include "simd/pixels.h"
 #include "simd/resample.h"
@@ -111,7 +112,10 @@
   KERNEL(PropagatePrior)                \
   KERNEL(AddPrior)                      \
   KERNEL(SumVotes)                      \
-  KERNEL(SmoothDisparity)
+  KERNEL(SmoothDisparity)               \
+  KERNEL(CompareSquares)                \
+  KERNEL(LimitBlock)                    \
+  KERNEL(FollowBlock)
 
 // List of the kernels that convert pictures and depth maps, which a program that only refocuses
 // packed RGB does not link.

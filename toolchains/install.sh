@@ -64,7 +64,7 @@ done <<<"$TABLE"
 has_header() {
   local IFS=: prefix folders=()
   for prefix in ${CMAKE_PREFIX_PATH:-}; do folders+=("-I$prefix/include"); done
-  echo "#include <$1>" | "${CXX:-c++}" "${folders[@]}" -E -x c++ - >/dev/null 2>&1
+  printf '#if !__has_include(<%s>)\n#error\n#endif\n' "$1" | "${CXX:-c++}" "${folders[@]}" -E -x c++ - >/dev/null 2>&1
 }
 
 # has PACKAGE: true if the package is installed, or if its files exist.

@@ -13,10 +13,15 @@
 #include "examples/cli/input.h"
 #include "examples/command_line/program.h"
 #include "platform/console.h"
+#include "platform/container.h"
 #include "platform/file.h"
 #include "platform/progress.h"
+#include "platform/readers/sample_bits.h"
 #include "platform/standard_stream.h"
 #include "platform/text.h"
+#include "platform/view_files.h"
+#include "platform/writers/deep_picture.h"
+#include "platform/writers/exr.h"
 #include "platform/writers/picture.h"
 
 namespace starfocus {
@@ -25,12 +30,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string OutputOf(const std::string& input, const std::string& folder) {
+// Returns the extension of a picture that keeps the bits of the file `input`, or an empty string if
+// the samples of the file have 8 bits.
+std::string DeepExtensionOf(const std::string& input) {
+  const std::string extension = LowerExtension(input);
+  if (extension == ".jpg" || extension == ".jpeg" || extension == ".png") return "";
+  const Result<Bytes> file = ReadFileIf(input, MayBePicture);
+  const StatedSamples samples = file ? StatedSamplesOf(*file) : StatedSamples();
+  if (samples.is_float) return CheckExrEncoder(input) ? ".png" : ".exr";
+  if (samples.bits <= 8) return "";
+  const std::string output = "a" + extension;
+  return IsDeepExtension(extension) && !CheckDeepEncoder(output) ? extension : ".png";
+}
+
+// Returns the extension of the picture of a light field.
+std::string ExtensionOfFolder(const std::string& folder, bool has_8_bits) {
+  const Result<std::vector<ViewFile>> views = FindViewFiles(folder);
+  const bool is_exr = views && LowerExtension(views->front().path) == ".exr";
+  return is_exr && !has_8_bits ? ".exr" : ".png";
+}
+
+std::string OutputOf(const std::string& input, const std::string& folder, bool has_8_bits) {
   std::error_code ignored;
-  const bool kept = IsPictureExtension(LowerExtension(input));
-  const std::string extension = fs::is_directory(input, ignored) ? ".png"
-                                : kept ? fs::path(input).extension().string()
-                                       : ".jpg";
+  std::string extension;
+  if (fs::is_directory(input, ignored)) {
+    extension = ExtensionOfFolder(input, has_8_bits);
+  } else {
+    if (!has_8_bits) extension = DeepExtensionOf(input);
+    const bool kept = IsPictureExtension(LowerExtension(input));
+    if (extension.empty()) extension = kept ? fs::path(input).extension().string() : ".jpg";
+  }
   return (fs::path(folder) / (NameOfInput(input) + extension)).string();
 }
 
@@ -91,7 +120,7 @@ std::vector<std::string> RunItems(const std::vector<BatchItem>& items, int jobs,
 }  // namespace
 
 Result<std::optional<Batch>> PlanBatch(const std::vector<std::string>& inputs,
-                                       const std::string& out, bool has_command) {
+                                       const std::string& out, bool has_command, bool has_8_bits) {
   std::error_code ignored;
   const bool to_folder =
       inputs.size() > 1 || (!out.empty() && out.back() == '/') || fs::is_directory(out, ignored);
@@ -113,7 +142,7 @@ Result<std::optional<Batch>> PlanBatch(const std::vector<std::string>& inputs,
     if (!found) return found.error();
     if (!to_folder && found->paths == inputs) return std::optional<Batch>();
     for (const std::string& part : found->paths) {
-      batch.items.push_back({part, OutputOf(part, out)});
+      batch.items.push_back({part, OutputOf(part, out, has_8_bits)});
     }
     std::move(found->skipped.begin(), found->skipped.end(), std::back_inserter(batch.skipped));
   }

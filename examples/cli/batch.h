@@ -97,11 +97,13 @@ struct Batch {
 // "/", or if the input is a folder of photographs and `out` has no extension. Otherwise returns
 // nullopt. An output file has the name of its input. Inputs of the formats .jpg, .png, .ppm and
 // .webp keep their format. Inputs of other file formats get the output format .jpg, and light
-// fields get the output format .png. A folder that is not a light field is replaced by the
-// photographs and light fields in it. `has_command` is true if a command computes the
-// depth or the matte of photos (find_inputs.h).
+// fields get the output format .png. Unless `has_8_bits` is true, pictures keep the bits of their
+// input: TIFF, HEIC and AVIF of more than 8 bits keep their format if this build can write it, PPM
+// becomes .png, and OpenEXR and other floats become .exr. A folder that is not a light field is
+// replaced by the photographs and light fields in it. `has_command` is true if a command computes
+// the depth or the matte of photos (find_inputs.h).
 Result<std::optional<Batch>> PlanBatch(const std::vector<std::string>& inputs,
-                                       const std::string& out, bool has_command);
+                                       const std::string& out, bool has_command, bool has_8_bits);
 
 // Creates the output folder. Returns an error if outputs coincide with each other or with inputs.
 Error MakeBatchFolder(const Batch& batch, OutputFolder* folder);

@@ -9,7 +9,9 @@
 #include "examples/cli/input.h"
 #include "platform/decoders/deep.h"
 #include "platform/deep_image.h"
+#include "platform/icc_profile.h"
 #include "platform/image_io.h"
+#include "platform/readers/sample_bits.h"
 #include "platform/standard_stream.h"
 #include "platform/writers/deep_picture.h"
 #include "platform/writers/ultra_hdr.h"
@@ -34,11 +36,18 @@ bool IsAlwaysDeep(const std::string& path) {
 void Deepen(const std::string& path, Capture* capture) {
   LightField& light_field = capture->light_field;
   if (!IsAlwaysDeep(path) || !light_field.deep.empty()) return;
+  const Metadata& metadata = capture->metadata;
+  light_field.deep_colours = metadata.icc.empty()
+                                 ? metadata.colours
+                                 : DescriptionOf(metadata.icc).value_or(ColourDescription());
   if (!capture->gain_map.levels.empty()) {
     light_field.deep.push_back(ApplyGainMap(light_field.views[0], capture->gain_map));
     return;
   }
-  for (const Image& view : light_field.views) light_field.deep.push_back(Widen(view, {}));
+  for (const Image& view : light_field.views) {
+    light_field.deep.push_back(Widen(view, {}));
+    if (light_field.is_linear) light_field.deep.back().transfer = STARFOCUS_TRANSFER_NONE;
+  }
 }
 
 // Removes the light of the file, because --highlights guesses light.
@@ -60,6 +69,13 @@ void TellLostBits(const Capture& capture) {
                   [](const DeepImage& view) { return LargestLight(view) > 1; })) {
     TellNote(capture.path, "light brighter than white is clipped in pictures of 8 bits");
   }
+}
+
+// Prints a note if a WebP picture has fewer bits than the input.
+void TellBits(const Capture& capture) {
+  std::vector<std::string> notes;
+  NoteSampleBits(capture.light_field.deep[0].bits, &notes);
+  for (const std::string& note : notes) TellNote(capture.path, note);
 }
 
 // Prints a note if the capture has a gain map that the output does not keep.
@@ -105,7 +121,9 @@ Error ChooseBits(const OutputOptions& output, bool single, Capture* capture, Eng
   const bool is_hdr = std::any_of(light_field.deep.begin(), light_field.deep.end(), MayExceedWhite);
   const bool has_alpha = std::any_of(light_field.deep.begin(), light_field.deep.end(),
                                      [](const DeepImage& deep) { return deep.channels == 4; });
-  const bool keeps = single && KeepsBits(path);
+  const bool keeps_alpha = single && WritesWebpAlpha(output, *capture);
+  const bool keeps = keeps_alpha || (single && KeepsBits(path));
+  if (keeps_alpha) TellBits(*capture);
   if (!keeps || replaces) TellLostBits(*capture);
   // Pictures without alpha show the colours of transparent pixels, and those of a sweep no light
   // beyond white.
@@ -124,10 +142,27 @@ Error ChooseBits(const OutputOptions& output, bool single, Capture* capture, Eng
   return {};
 }
 
+bool WritesWebpAlpha(const OutputOptions& output, const Capture& capture) {
+  const std::vector<DeepImage>& deep = capture.light_field.deep;
+  return FormatExtension(output.out) == ".webp" && !deep.empty() &&
+         std::all_of(deep.begin(), deep.end(), [](const DeepImage& view) {
+           return view.channels == 4 && !MayExceedWhite(view);
+         });
+}
+
+Error WriteWebpAlpha(const std::string& path, const PictureOptions& how,
+                     const EngineResult& result) {
+  PictureOptions options = how;
+  for (size_t at = 3; at < result.deep.samples.size(); at += 4) {
+    options.alphas.push_back(static_cast<uint8_t>((result.deep.samples[at] + 128) / 257));
+  }
+  return WriteImage(path, result.picture, options);
+}
+
 Error WriteDeepResult(const std::string& path, const PictureOptions& how, const Capture& capture,
                       const EngineResult& result) {
   DeepOptions options = {how};
-  options.picture.metadata.colours = capture.deep_colours;
+  options.picture.metadata.colours = capture.light_field.deep_colours;
   const std::string extension = FormatExtension(path);
   const bool shows_hdr = extension == ".avif" || extension == ".heic";
   if (shows_hdr) options.transfer = STARFOCUS_TRANSFER_PQ;

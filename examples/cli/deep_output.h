@@ -28,6 +28,13 @@ Error CheckHighlights(const std::string& path, double highlights);
 // format of the picture cannot describe the light.
 Error ChooseBits(const OutputOptions& output, bool single, Capture* capture, EngineTask* task);
 
+// Returns true if a single picture is written as WebP with the alpha of the input.
+bool WritesWebpAlpha(const OutputOptions& output, const Capture& capture);
+
+// Writes the picture of a result as WebP, with the alpha of its deep picture.
+Error WriteWebpAlpha(const std::string& path, const PictureOptions& how,
+                     const EngineResult& result);
+
 // Writes the deep picture of a result.
 Error WriteDeepResult(const std::string& path, const PictureOptions& how, const Capture& capture,
                       const EngineResult& result);

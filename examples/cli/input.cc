@@ -16,9 +16,11 @@
 #include "examples/cli/estimate_run.h"
 #include "examples/command_line/options.h"
 #include "platform/console.h"
+#include "platform/deep_image.h"
 #include "platform/file.h"
 #include "platform/natural_order.h"
 #include "platform/readers/capture.h"
+#include "platform/readers/deep_photo.h"
 #include "platform/readers/depth_photo_file.h"
 #include "platform/readers/pair.h"
 #include "platform/readers/stereo_folders.h"
@@ -225,6 +227,22 @@ struct CommandRun {
   }
 };
 
+// Prints a note about light that the engine does not refocus as it is.
+void TellUnusable(const Capture& capture) {
+  UnusableLight counts;
+  for (const DeepImage& view : capture.light_field.deep) CountUnusable(view, &counts);
+  std::string text;
+  const auto add = [&text](int64_t count, const char* what) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + what;
+  };
+  add(counts.not_a_number, " pixels that are not a number count as black");
+  add(counts.negative, " pixels with negative light count as black there");
+  add(counts.too_bright, " pixels brighter than 64 times white are limited to that");
+  const size_t views = capture.light_field.deep.size();
+  if (text.empty()) return;
+  TellNote(capture.path, text + (views > 1 ? " (in " + std::to_string(views) + " views)" : ""));
+}
+
 // Returns what makes a matte unnecessary: `of_photo`, or the views of a folder.
 std::string Present(const std::string& of_photo, const Capture& capture) {
   return capture.photo ? of_photo : capture.files.size() > 1 ? "several views" : "a map";
@@ -311,6 +329,7 @@ Error LoadInput(const Positions& views, int threads, Capture* capture) {
   }
   ThreadRunner runner(threads);
   const Error error = LoadCapture(views, capture, &runner);
+  TellUnusable(*capture);
   return !error && capture->map_path.empty() ? Estimate(threads, capture) : error;
 }
 
@@ -360,13 +379,21 @@ std::string MapName(const Capture& capture) {
   return folder ? DisparityPath(capture.path) : capture.path;
 }
 
+Facts FactsOf(const Capture& capture) {
+  Facts facts = capture.facts;
+  for (auto& fact : FactsOfLight(capture.light_field, capture.metadata, capture.gain_map)) {
+    facts.push_back(std::move(fact));
+  }
+  return facts;
+}
+
 Json Describe(const Capture& capture) {
   const LightField& light_field = capture.light_field;
   Json json;
   json.Set("format", capture.format);
   Json facts;
-  for (const auto& fact : capture.facts) facts.Set(fact.first, fact.second);
-  if (!capture.facts.empty()) json.Set("facts", std::move(facts));
+  for (const auto& fact : FactsOf(capture)) facts.Set(fact.first, fact.second);
+  json.Set("facts", std::move(facts));
   if (capture.widest > 0) json.Set("widest_f_stop", capture.widest);
   json.Set("width", light_field.views[0].width);
   json.Set("height", light_field.views[0].height);

@@ -79,8 +79,11 @@ std::vector<std::string> GridsOf(const InputOptions& options, const Capture& cap
 // Returns the name of the map for error messages.
 std::string MapName(const Capture& capture);
 
-// Returns the format of an input whose views are loaded, the facts in its files, and the size,
-// number and positions of its views.
+// Returns the facts in the files of an input whose views are loaded, and those about their light.
+Facts FactsOf(const Capture& capture);
+
+// Returns the format of an input whose views are loaded, its facts, and the size, number and
+// positions of its views.
 Json Describe(const Capture& capture);
 
 // Prints "<input>: <note>", unless this run of the program has already printed a note for another

@@ -23,7 +23,7 @@ Error Run(int argc, char** argv) {
        {"Options", {{"--help"}, {"--help-all"}, {"--version"}}}}};
   program.commands = {RefocusCommand(), DisparityCommand(), VideoCommand(),       ViewCommand(),
                       InfoCommand(),    ImportCommand(),    HelpCommand(&program)};
-  program.lab_commands = {"analyze", "calibrate", "compare", "scene", "sheet", "steps"};
+  program.lab_commands = {"analyze", "calibrate", "compare", "flicker", "scene", "sheet", "steps"};
   return RunCommandLine(program, argc, argv);
 }
 

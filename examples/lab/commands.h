@@ -9,6 +9,7 @@ namespace starfocus {
 
 Command SceneCommand();
 Command CompareCommand();
+Command FlickerCommand();
 Command SheetCommand();
 Command AnalyzeCommand();
 Command CalibrateCommand();

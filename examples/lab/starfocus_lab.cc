@@ -21,6 +21,7 @@ Error Run(int argc, char** argv) {
                   {{"Pictures",
                     {{"scene"},
                      {"compare", "Print how much two pictures differ"},
+                     {"flicker", "Measure how much the pictures of a clip flicker"},
                      {"sheet"},
                      {"steps", "Draw the intermediate data of refocusing"}}},
                    {"Engine",
@@ -28,8 +29,9 @@ Error Run(int argc, char** argv) {
                      {"calibrate", "Measure the coefficients of the timing model"},
                      {"help"}}},
                    {"Options", {{"--help"}, {"--help-all"}, {"--version"}}}}};
-  program.commands = {SceneCommand(),     CompareCommand(), SheetCommand(),       AnalyzeCommand(),
-                      CalibrateCommand(), StepsCommand(),   HelpCommand(&program)};
+  program.commands = {SceneCommand(), CompareCommand(),     FlickerCommand(),
+                      SheetCommand(), AnalyzeCommand(),     CalibrateCommand(),
+                      StepsCommand(), HelpCommand(&program)};
   return RunCommandLine(program, argc, argv);
 }
 

@@ -136,9 +136,13 @@ bool IntersectEllipsoid(const Surface& s, const Ray& ray, Hit* hit) {
 }
 
 bool IntersectStrands(const Surface& s, const Ray& ray, Hit* hit) {
+  Point origin, slope;
+  ToLocal(s, ray.ox - s.cx, ray.oy - s.cy, &origin.x, &origin.y);
+  ToLocal(s, ray.u, ray.v, &slope.x, &slope.y);
   StrandHit found;
-  if (!s.strands->Find({ray.ox, ray.oy}, ray.u, ray.v, &found)) return false;
-  *hit = {found.x, found.y, found.d, found.along, found.across, 0, 0, 1, found.strand};
+  if (!s.strands->Find(origin, slope.x, slope.y, &found)) return false;
+  const double x = ray.ox + ray.u * found.d, y = ray.oy + ray.v * found.d;
+  *hit = {x, y, found.d, found.along, found.across, 0, 0, 1, found.strand};
   return true;
 }
 
@@ -150,8 +154,22 @@ bool Intersect(const Surface& surface, const Ray& ray, Hit* hit) {
                                         : IntersectEllipsoid(surface, ray, hit);
 }
 
+namespace {
+
+Bounds StrandBounds(const Surface& s) {
+  const Bounds& own = s.strands->bounds();
+  const double mx = 0.5 * (own.x0 + own.x1), my = 0.5 * (own.y0 + own.y1);
+  const double rx = 0.5 * (own.x1 - own.x0), ry = 0.5 * (own.y1 - own.y0);
+  const double x = s.cx + mx * s.ax - my * s.ay, y = s.cy + mx * s.ay + my * s.ax;
+  const double wide = std::fabs(s.ax) * rx + std::fabs(s.ay) * ry;
+  const double high = std::fabs(s.ay) * rx + std::fabs(s.ax) * ry;
+  return {x - wide, x + wide, y - high, y + high, own.d0, own.d1};
+}
+
+}  // namespace
+
 Bounds SurfaceBounds(const Surface& s, double reach) {
-  if (s.shape == Shape::kStrands) return s.strands->bounds();
+  if (s.shape == Shape::kStrands) return StrandBounds(s);
   const bool endless = s.shape == Shape::kPlane && s.outline == Outline::kNone;
   // The outline of a leaf reaches up to 1.14 times the leaf's radius ry.
   const double ry = s.outline == Outline::kLeaf ? 1.2 * s.ry : s.ry;

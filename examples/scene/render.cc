@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "examples/scene/noise.h"
 #include "platform/deep_image.h"
@@ -19,7 +20,6 @@ struct LensPoint {
 namespace {
 
 constexpr int kTile = 16;
-constexpr int kViewGrid = 4;       // Samples along each side of a pixel of a view.
 constexpr int kFineGrid = 8;       // Samples along each side of a pixel near strands.
 constexpr int kCoverageGrid = 16;  // Samples along each side of a pixel of the coverage.
 // cos and sin of the golden angle and of 1/256 of a turn. Multiplying a direction by these
@@ -77,6 +77,18 @@ void ProductRange(double a, double b, double c, double d, double* low, double* h
   *high = std::max({a * c, a * d, b * c, b * d});
 }
 
+// Returns the bounds of a surface relative to the picture positions of the camera's centre view.
+Bounds SeenBounds(Bounds box, const Camera& camera) {
+  double low, high;
+  ProductRange(box.d0, box.d1, camera.u, camera.u, &low, &high);
+  box.x0 -= camera.x + high;
+  box.x1 -= camera.x + low;
+  ProductRange(box.d0, box.d1, camera.v, camera.v, &low, &high);
+  box.y0 -= camera.y + high;
+  box.y1 -= camera.y + low;
+  return box;
+}
+
 }  // namespace
 
 struct RayTracer::Lens {
@@ -99,11 +111,21 @@ RayTracer::RayTracer(const Scene& scene, int width, int height, starfocus_transf
       curve_(transfer),
       runner_(runner) {
   const double reach = std::max(width, height) / scale_;
-  for (const Surface& surface : scene.surfaces) bounds_.push_back(SurfaceBounds(surface, reach));
+  for (const Surface& surface : scene.surfaces) {
+    bounds_.push_back(SeenBounds(SurfaceBounds(surface, reach), scene.camera));
+  }
 }
 
 void RayTracer::ToPixel(double x, double y, int* pixel_x, int* pixel_y) const {
-  const double px = x * scale_ + 0.5 * (width_ - 1), py = y * scale_ + 0.5 * (height_ - 1);
+  const Camera& camera = scene_.camera;
+  std::optional<double> nearest;
+  Hit hit;
+  for (const Surface& surface : scene_.surfaces) {
+    if (Intersect(surface, {x, y, 0, 0}, &hit)) nearest = std::max(hit.d, nearest.value_or(hit.d));
+  }
+  const double d = nearest.value_or(0);
+  const double px = (x - camera.x - camera.u * d) * scale_ + 0.5 * (width_ - 1);
+  const double py = (y - camera.y - camera.v * d) * scale_ + 0.5 * (height_ - 1);
   *pixel_x = std::clamp(static_cast<int>(std::floor(px + 0.5)), 0, width_ - 1);
   *pixel_y = std::clamp(static_cast<int>(std::floor(py + 0.5)), 0, height_ - 1);
 }
@@ -130,12 +152,14 @@ std::vector<size_t> RayTracer::Candidates(const Lens& lens, int x0, int y0) cons
 
 const Surface* RayTracer::Trace(const std::vector<size_t>& candidates, const Ray& ray, double most,
                                 Hit* hit) const {
+  const Camera& camera = scene_.camera;
+  const Ray seen = {ray.ox + camera.x, ray.oy + camera.y, ray.u + camera.u, ray.v + camera.v};
   const Surface* found = nullptr;
   hit->d = -kInfinity;
   for (size_t i : candidates) {
     if (bounds_[i].d1 <= hit->d) break;
     Hit other;
-    if (Intersect(scene_.surfaces[i], ray, &other) && other.d > hit->d && other.d <= most) {
+    if (Intersect(scene_.surfaces[i], seen, &other) && other.d > hit->d && other.d <= most) {
       *hit = other;
       found = &scene_.surfaces[i];
     }
@@ -210,7 +234,7 @@ Color RayTracer::LensPixel(const Lens& lens, const std::vector<size_t>& candidat
 void RayTracer::RenderTile(const Lens& lens, int x0, int y0, SceneLight* picture) const {
   const std::vector<size_t> candidates = Candidates(lens, x0, y0);
   const auto is_fine = [](const Surface& surface) { return surface.strands != nullptr; };
-  const int grid = Any(candidates, is_fine) ? kFineGrid : kViewGrid;
+  const int grid = Any(candidates, is_fine) ? kFineGrid : scene_.view_grid;
   for (int y = y0; y < std::min(y0 + kTile, height_); ++y) {
     for (int x = x0; x < std::min(x0 + kTile, width_); ++x) {
       picture->pixels[size_t(y) * size_t(width_) + size_t(x)] =

@@ -82,8 +82,9 @@ struct SceneLight {
 };
 
 // Approximate number of lens samples per pixel of the ground truth. A lamp 64 times as bright as
-// white needs more, because each sample that meets it adds a quarter of white with 256.
-inline constexpr int kLensSamples = 256, kHdrLensSamples = 1024;
+// white needs more, because each sample that meets it adds a quarter of white with 256. Moving
+// scenes need more, because noise of the ground truth changes from frame to frame.
+inline constexpr int kLensSamples = 256, kFineLensSamples = 1024;
 
 class RayTracer {
  public:
@@ -126,7 +127,8 @@ class RayTracer {
   Image Encoded(const SceneLight& picture) const;
   DeepImage Halves(const SceneLight& picture) const;
 
-  // Converts a point of the canvas to the coordinates of the nearest pixel.
+  // Converts the scene's nearest point at canvas position (x, y) to the coordinates of the pixel in
+  // which the camera's centre view shows it.
   void ToPixel(double x, double y, int* pixel_x, int* pixel_y) const;
 
  private:
@@ -134,7 +136,7 @@ class RayTracer {
 
   // Returns the indices of the surfaces that may be visible in the tile at (x0, y0), nearest first.
   std::vector<size_t> Candidates(const Lens& lens, int x0, int y0) const;
-  // Finds the nearest surface on a ray whose disparity is at most `most`.
+  // Finds the nearest surface on a ray of the camera whose disparity is at most `most`.
   const Surface* Trace(const std::vector<size_t>& candidates, const Ray& ray, double most,
                        Hit* hit) const;
   // Finds the nearest surface that canvas position `p` shows through lens position `q`.

@@ -61,8 +61,8 @@ struct Surface {
   double rx = 0, ry = 0, rd = 0;    // Radii along the local axes; rd is used for ellipsoids only.
   double slope_x = 0, slope_y = 0;  // Change of a plane's disparity per unit of x and of y.
   double thickness = 0;             // Width of a ring.
-  std::shared_ptr<const Strands> strands;
-  bool foreground = false;  // true if the surface counts in the coverage or matte
+  std::shared_ptr<const Strands> strands;  // relative to the centre, along the local axes
+  bool foreground = false;                 // true if the surface counts in the coverage or matte
   Paint paint = nullptr;
   Color color, second;
   double scale = 1;  // scale of the texture
@@ -76,6 +76,13 @@ bool Intersect(const Surface& surface, const Ray& ray, Hit* hit);
 // plane.
 Bounds SurfaceBounds(const Surface& surface, double reach);
 
+// Where the camera has moved to. Picture position p of its centre view shows the points
+// (x, y) = p + (x, y) of the camera + (u, v) of the camera * d.
+struct Camera {
+  double x = 0, y = 0;  // By turning: all points move by the same distance.
+  double u = 0, v = 0;  // By moving, in units of the position of a view; at most 1 away from 0.
+};
+
 // A point of the canvas to focus on.
 struct NamedPoint {
   const char* name;
@@ -86,6 +93,9 @@ struct Scene {
   std::string name;
   std::string description;
   std::vector<Surface> surfaces;
+  Camera camera;
+  // Samples along each side of a pixel of a view, unless the pixel is near strands.
+  int view_grid = 4;
   std::vector<NamedPoint> points;  // Points to focus on, from near to far.
   bool seeded = false;             // True if the scene depends on the seed.
   // True if other near surfaces do not belong to the foreground. The share of a pixel that the

@@ -110,7 +110,7 @@ void Strands::AddToCells(uint32_t index, std::vector<std::vector<uint32_t>>* cel
 
 void Strands::FillGrid() {
   d_ = 0.5 * (bounds_.d0 + bounds_.d1);
-  reach_ = 0.5 * (bounds_.d1 - bounds_.d0);
+  reach_ = kMostSlope * 0.5 * (bounds_.d1 - bounds_.d0);
   origin_ = {bounds_.x0 - reach_, bounds_.y0 - reach_};
   columns_ = static_cast<int>((bounds_.x1 + reach_ - origin_.x) / kCell) + 1;
   rows_ = static_cast<int>((bounds_.y1 + reach_ - origin_.y) / kCell) + 1;

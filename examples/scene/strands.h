@@ -37,13 +37,16 @@ struct Bounds {
 
 class Strands {
  public:
+  // Largest |u| and |v| of rays: 1 for the views of a camera, and 1 for the way that it moves.
+  static constexpr double kMostSlope = 2;
+
   // @param strands at least one strand; lengths must be above 0
   explicit Strands(std::vector<Strand> strands);
 
   const Bounds& bounds() const { return bounds_; }
 
   // Returns true if the points (x, y) + (u, v) * d meet a strand, and sets *hit to the nearest
-  // intersection. u and v must be within +-1.
+  // intersection. u and v must be within +-kMostSlope.
   bool Find(Point at, double u, double v, StrandHit* hit) const;
 
  private:

@@ -141,11 +141,11 @@ double Damask(double x, double y) {
 }  // namespace
 
 Color PaintWallpaper(const Surface& s, const Hit& hit) {
-  const double weave = 0.5 * (Triangle(hit.x, 5) + Triangle(hit.y, 5));
-  const double cloud = Fractal(hit.x / 90, hit.y / 90, 6, s.seed);
-  const Color color = Mix(s.color, s.second, Damask(hit.x, hit.y));
+  const double weave = 0.5 * (Triangle(hit.lx, 5) + Triangle(hit.ly, 5));
+  const double cloud = Fractal(hit.lx / 90, hit.ly / 90, 6, s.seed);
+  const Color color = Mix(s.color, s.second, Damask(hit.lx, hit.ly));
   // A lamp outside the picture lights the upper right.
-  const double dx = (hit.x - 260) / 700, dy = (hit.y + 260) / 620;
+  const double dx = (hit.lx - 260) / 700, dy = (hit.ly + 260) / 620;
   const double glow = 1.25 - 0.55 * Smooth(0, 1.6, dx * dx + dy * dy);
   return color * (glow * (0.55 + 0.2 * weave + 0.7 * cloud));
 }
@@ -277,21 +277,21 @@ Color PaintTwist(const Surface& s, const Hit& hit) {
 }
 
 Color PaintBark(const Surface& s, const Hit& hit) {
-  const double cloud = Fractal(hit.x / 22, hit.y / 22, 5, s.seed);
-  const double bend = 34 * Fractal(hit.x / 60, hit.y / 60, 4, s.seed + 7);
-  const double crack = Triangle(hit.x + bend, 46);
+  const double cloud = Fractal(hit.lx / 22, hit.ly / 22, 5, s.seed);
+  const double bend = 34 * Fractal(hit.lx / 60, hit.ly / 60, 4, s.seed + 7);
+  const double crack = Triangle(hit.lx + bend, 46);
   const Color color = Mix(s.color, s.second, cloud);
   return color * (0.25 + 0.75 * Smooth(0.1, 0.22, crack));
 }
 
 Color PaintFloor(const Surface& s, const Hit& hit) {
   const double cell = 52;
-  const double cx = std::floor(hit.x / cell), cy = std::floor(hit.y / cell);
+  const double cx = std::floor(hit.lx / cell), cy = std::floor(hit.ly / cell);
   const int32_t ix = static_cast<int32_t>(cx), iy = static_cast<int32_t>(cy);
-  const double px = Wrap(hit.x, cell), py = Wrap(hit.y, cell);
-  if (px < 2.5 || py < 2.5) return Color{70, 64, 60} * (0.7 + 0.6 * Noise(hit.x, hit.y, s.seed));
+  const double px = Wrap(hit.lx, cell), py = Wrap(hit.ly, cell);
+  if (px < 2.5 || py < 2.5) return Color{70, 64, 60} * (0.7 + 0.6 * Noise(hit.lx, hit.ly, s.seed));
   const double tint = HashUnit(ix, iy, s.seed + 1);
-  const double veins = Fractal(hit.x / 17 + 20 * tint, hit.y / 17, 5, s.seed + 2);
+  const double veins = Fractal(hit.lx / 17 + 20 * tint, hit.ly / 17, 5, s.seed + 2);
   const double vein = Smooth(0.06, 0, std::fabs(veins - 0.5));
   Color color = Wrap(cx + cy, 2) >= 1 ? s.color : s.second;
   color = color * (0.75 + 0.35 * tint) * (0.65 + 0.7 * veins);

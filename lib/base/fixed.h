@@ -46,6 +46,7 @@
 // | share * light           | int32  | 2^21     | [0, 204], four of a pixel | 1.2 x in the sum of four  |
 // | mean colour of a cell   | uint16 | 2^6      | [0, 255]                  | 4 x                       |
 // | squared differences     | int32  | 2^12     | [0, 195075], of three     | 2.6 x                     |
+// | scale of a map, minus 1 | int32  | 2^16     | [-1/4, 1/4]               | 4 x in its product        |
 // clang-format on
 //
 // Rounding: Round* rounds half up; a plain shift truncates towards minus infinity.

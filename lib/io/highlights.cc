@@ -2,6 +2,7 @@
 #include "lib/io/highlights.h"
 
 #include <cstddef>
+#include <cstring>
 
 namespace starfocus {
 namespace {
@@ -86,17 +87,26 @@ void ReadPixel(const Input& in, int view, int32_t x, int32_t y, const uint8_t* c
   }
 }
 
-void ReadExcess(const Input& in, int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
-  for (int32_t p = 0; p < count; ++p) {
-    uint8_t room[3];
-    ReadPixel(in, view, x + p, y, in.Codes(view, x + p, y, 1, room), rgb + 3 * p);
-  }
-}
-
 bool IsBright(const uint8_t* codes, int32_t pixels) {
   uint8_t brightest = 0;
   for (int32_t k = 0; k < 3 * pixels; ++k) brightest = codes[k] > brightest ? codes[k] : brightest;
   return brightest >= kFirstExcess;
+}
+
+void ReadExcess(const Input& in, int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
+  constexpr int32_t kPiece = 64;
+  for (int32_t p = 0, some; p < count; p += some) {
+    some = Min(kPiece, count - p);
+    uint8_t room[3 * kPiece];
+    const uint8_t* const codes = in.Codes(view, x + p, y, some, room);
+    if (!IsBright(codes, some)) {
+      std::memset(rgb + 3 * p, 0, 3 * static_cast<size_t>(some) * sizeof(*rgb));
+      continue;
+    }
+    for (int32_t n = 0; n < some; ++n) {
+      ReadPixel(in, view, x + p + n, y, codes + 3 * n, rgb + 3 * (p + n));
+    }
+  }
 }
 
 // Returns true if at least one of the pixels is not a highlight.

@@ -268,15 +268,9 @@ std::vector<ExrColours> ListPictures(const std::vector<ExrChannel>& channels) {
   return pictures;
 }
 
-// Replaces samples that are not finite or exceed half floats, and counts them.
-uint16_t StoredHalf(float value, int64_t* replaced) {
-  if (std::isnan(value)) {
-    ++*replaced;
-    return 0;
-  }
-  const float limited = std::clamp(value, -kLargestHalf, kLargestHalf);
-  if (limited != value) ++*replaced;
-  return HalfOfFloat(limited);
+// Limits samples to finite half floats. NaN stays, so that CountUnusable finds it.
+uint16_t StoredHalf(float value) {
+  return HalfOfFloat(std::isnan(value) ? value : std::clamp(value, -kLargestHalf, kLargestHalf));
 }
 
 // Reads the attribute chromaticities. Without it, the primaries are those of BT.709.
@@ -344,14 +338,13 @@ Result<DecodedPicture> DecodeColours(const std::string& where, const Bytes& exr,
   deep.is_half = true;
   deep.transfer = STARFOCUS_TRANSFER_NONE;
   const auto samples = static_cast<size_t>(deep.channels);
-  int64_t replaced = 0;
   ReadPart(&file, chosen.part, *window, chosen.channels,
            [&](int x, int y, int count, const float* values) {
              uint16_t* to = deep.row(y) + static_cast<size_t>(x) * samples;
              for (; count > 0; --count, to += samples, values += stored) {
                for (size_t c = 0; c < samples; ++c) {
                  const size_t from = !is_grey ? c : c < 3 ? 0 : 1;
-                 to[c] = StoredHalf(values[from], &replaced);
+                 to[c] = StoredHalf(values[from]);
                }
              }
            });
@@ -363,10 +356,6 @@ Result<DecodedPicture> DecodeColours(const std::string& where, const Bytes& exr,
     notes->push_back("the file has " + std::to_string(pictures.size()) +
                      " pictures, of which the program reads " +
                      (chosen.name.empty() ? "the first" : chosen.name));
-  }
-  if (replaced > 0) {
-    notes->push_back(std::to_string(replaced) +
-                     " samples that are infinite, not a number or beyond 65504 are replaced");
   }
   return picture;
 }

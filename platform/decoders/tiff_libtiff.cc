@@ -214,7 +214,8 @@ bool CanHold(const Bytes& tiff, const Layout& layout) {
 void StoreHalf(const float* values, float alpha, bool is_straight, size_t channels, uint16_t* to) {
   for (size_t c = 0; c < 3; ++c) {
     const float light = values[c] * (is_straight ? alpha : 1);
-    to[c] = HalfOfFloat(std::isnan(light) ? 0 : std::clamp(light, -kLargestHalf, kLargestHalf));
+    // NaN stays, so that CountUnusable finds it.
+    to[c] = HalfOfFloat(std::isnan(light) ? light : std::clamp(light, -kLargestHalf, kLargestHalf));
   }
   if (channels == 4) to[3] = HalfOfFloat(alpha);
 }

@@ -5,9 +5,12 @@
 #include <webp/decode.h>
 #include <webp/mux.h>
 
+#include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "platform/container.h"
+#include "platform/decoders/deep.h"
 #include "platform/decoders/exif_bytes.h"
 #include "platform/decoders/limits.h"
 #include "platform/text.h"
@@ -17,7 +20,8 @@ namespace {
 
 // Limits of the number of pixels: per byte of the file, and for any file. The WebP format does not
 // limit the pixels per byte: 38 bytes can encode 8000x8000 pixels of one colour. The decoder
-// requires 7 bytes of memory per pixel. Files of photographs have a few pixels per byte.
+// requires 7 bytes of memory per pixel, and 16 with alpha. Files of photographs have a few pixels
+// per byte.
 constexpr int64_t kMostPixelsPerByte = 65536, kAnyFilesPixels = int64_t{1} << 24;
 
 Error Failed(const std::string& where, VP8StatusCode status) {
@@ -75,14 +79,31 @@ Result<DecodedPicture> DecodeWebp(const std::string& where, const Bytes& webp) {
         where, "a WebP picture of at most 2^24 pixels and 65536 pixels for each byte of its file",
         SizeText(width, height));
   }
-  Image result(width, height);
-  config.output.colorspace = MODE_RGB;
+  DecodedPicture picture;
+  const bool has_alpha = config.input.has_alpha != 0;
+  const size_t channels = has_alpha ? 4 : 3, pixels = size_t(width) * size_t(height);
+  Bytes samples(channels * pixels);
+  config.output.colorspace = has_alpha ? MODE_RGBA : MODE_RGB;
   config.output.is_external_memory = 1;
-  config.output.u.RGBA = {result.pixels.data(), static_cast<int>(result.stride()),
-                          result.pixels.size()};
+  config.output.u.RGBA = {samples.data(), static_cast<int>(channels) * width, samples.size()};
   status = WebPDecode(webp.data(), webp.size(), &config);
   if (status != VP8_STATUS_OK) return Failed(where, status);
-  return DecodedPicture{std::move(result), {}, ReadMetadata(webp), config.input.has_alpha != 0};
+  picture.metadata = ReadMetadata(webp);
+  picture.image.width = width;
+  picture.image.height = height;
+  if (!has_alpha) {
+    picture.image.pixels = std::move(samples);
+    return picture;
+  }
+  Bytes alphas(pixels);
+  picture.image.pixels.resize(3 * pixels);
+  for (size_t k = 0; k < pixels; ++k) {
+    std::copy_n(&samples[4 * k], 3, &picture.image.pixels[3 * k]);
+    alphas[k] = samples[4 * k + 3];
+  }
+  picture.deep = Widen(picture.image, alphas);
+  CompleteDeep(8, &picture);
+  return picture;
 }
 
 }  // namespace starfocus

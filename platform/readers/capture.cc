@@ -120,7 +120,6 @@ int PixelAt(double share, int pixels) {
 void MoveDescription(DepthPhoto* photo, Capture* capture) {
   capture->format = photo->format;
   capture->metadata = std::move(photo->metadata);
-  capture->deep_colours = std::move(photo->deep_colours);
   capture->facts = std::move(photo->facts);
   capture->notes = std::move(photo->notes);
   capture->lost = std::move(photo->lost);
@@ -231,7 +230,10 @@ Result<Capture> TakePhoto(const std::string& path, const CaptureOptions& options
     photo.facts.emplace_back("matte", Description(capture.matte));
   }
   MoveDescription(&photo, &capture);
-  if (photo.deep) light_field.deep.push_back(std::move(*photo.deep));
+  if (photo.deep) {
+    light_field.deep.push_back(std::move(*photo.deep));
+    light_field.deep_colours = std::move(photo.deep_colours);
+  }
   capture.gain_map = std::move(photo.gain_map);
   if (!options.small_map) FitMap(&light_field);
   const Image& picture = light_field.views[0];

@@ -52,8 +52,7 @@ struct Capture {
   int subject_x = 0, subject_y = 0;  // Pixel of the subject as stated by EXIF.
   double focus = NAN;                // Disparity in focus; NaN: unknown.
   Metadata metadata;
-  ColourDescription deep_colours;  // Colours of light_field.deep of a photo.
-  GainMap gain_map;                // Light of a photo beyond white; no levels: no gain map.
+  GainMap gain_map;  // Light of a photo beyond white; no levels: no gain map.
   Facts facts;
   std::vector<std::string> notes;
   std::vector<std::string> lost;  // Notes on what pictures of 8 bits lose.

@@ -114,7 +114,7 @@ uint64_t TiffPixels(Span file) {
 // Returns the bytes for a pixel that files of this format may take.
 uint64_t BytesPerPixel(Span file) {
   const bool is_deep = IsHeif(file) || HasAt(file, 1, "PNG\r\n") || HasAt(file, 0, "v/1\1") ||
-                       HasAt(file, 0, "II*") || HasAt(file, 0, "MM");
+                       HasAt(file, 0, "II*") || HasAt(file, 0, "MM") || HasAt(file, 0, "RIFF");
   return is_deep ? kDeepBytesPerPixel : kBytesPerPixel;
 }
 

@@ -134,7 +134,7 @@ Result<DepthPhoto> DecodeJpegPhoto(const std::string& where, Span file, bool wit
                   [](const AppendedPicture& picture) { return picture.is_gain_map; });
   const Error problem = ReadGainMap(appended, &*photo);
   if (has_gain_map) {
-    photo->facts.emplace_back("gain map", problem ? "ignored: " + problem.line() : "ignored");
+    photo->facts.emplace_back("gain map", GainMapFact(photo->gain_map, problem));
   }
   return photo;
 }

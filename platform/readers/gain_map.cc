@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <utility>
@@ -228,6 +229,14 @@ Error ReadGainMap(const std::vector<AppendedPicture>& appended, DepthPhoto* phot
     if (!first) first = error;
   }
   return first;
+}
+
+std::string GainMapFact(const GainMap& map, const Error& problem) {
+  if (problem) return "ignored: " + problem.line();
+  const double stops = *std::max_element(map.max.begin(), map.max.end());
+  char text[40];
+  std::snprintf(text, sizeof(text), ", at most %.3g stops", stops);
+  return map.format + ", " + SizeText(map.width, map.height) + text;
 }
 
 Error ReadAppleGainMap(const AuxiliaryPicture& picture, DepthPhoto* photo) {

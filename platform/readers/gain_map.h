@@ -31,6 +31,9 @@ Error ReadGainMapIso(Span metadata, GainMap* map);
 // photo->picture. The caller must have read photo->picture and EXIF.
 Error ReadGainMap(const std::vector<AppendedPicture>& appended, DepthPhoto* photo);
 
+// Returns the fact about a gain map that was read, or not because of `problem`.
+std::string GainMapFact(const GainMap& map, const Error& problem);
+
 // Sets photo->gain_map to an auxiliary picture of a HEIF file whose type is kAppleGainMap, or
 // returns an error. The caller must have read photo->picture and EXIF.
 Error ReadAppleGainMap(const AuxiliaryPicture& picture, DepthPhoto* photo);

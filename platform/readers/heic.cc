@@ -297,13 +297,13 @@ std::vector<AuxiliaryPicture> ListAuxiliaries(const heif_image_handle* primary, 
 }
 
 // Reads the gain map and the mattes among the auxiliary pictures. Adds an entry to photo->facts if
-// an auxiliary picture is a gain map. Refocusing does not use gain maps.
+// an auxiliary picture is a gain map.
 void ReadAuxiliaries(const heif_image_handle* primary, size_t file, DepthPhoto* photo) {
   const std::vector<AuxiliaryPicture> pictures = ListAuxiliaries(primary, file);
   for (const AuxiliaryPicture& picture : pictures) {
     if (picture.type.find("gainmap") == std::string::npos) continue;
     const Error problem = ReadAppleGainMap(picture, photo);
-    photo->facts.emplace_back("gain map", problem ? "ignored: " + problem.line() : "ignored");
+    photo->facts.emplace_back("gain map", GainMapFact(photo->gain_map, problem));
     break;
   }
   ChooseMatte(pictures, photo);

@@ -57,6 +57,14 @@ DeepImage CodesOf(const DeepImage& image, int32_t transfer, Notes* notes) {
   return codes;
 }
 
+// Adds a note if the curve of a profile was taken for that of sRGB.
+void NoteCurve(const DeepOptions& options, Notes* notes) {
+  const Metadata& metadata = options.picture.metadata;
+  const std::string curve = TransferNameOf(metadata.colours);
+  if (metadata.icc.empty() || curve == "sRGB" || IsLinear(metadata.colours)) return;
+  notes->push_back("the curve of the ICC profile, " + curve + ", counts as that of sRGB");
+}
+
 // Returns the metadata of a file of codes: sRGB has the description or the profile of the caller,
 // and other transfers have code points, which override a profile.
 Metadata MetadataOf(const DeepOptions& options, int32_t transfer, Notes* notes) {
@@ -72,6 +80,7 @@ Metadata MetadataOf(const DeepOptions& options, int32_t transfer, Notes* notes) 
   }
   // A profile that describes linear light needs no code points.
   if (transfer == STARFOCUS_TRANSFER_NONE && !metadata.icc.empty()) return metadata;
+  NoteCurve(options, notes);
   const int primaries = PrimariesCodeOf(colours);
   if (primaries == ColourDescription::kUnspecified) {
     notes->push_back("the file does not keep the primaries, which have no code point");
@@ -84,7 +93,11 @@ Metadata MetadataOf(const DeepOptions& options, int32_t transfer, Notes* notes) 
 Result<Bytes> EncodeHalf(const std::string& path, const DeepImage& image,
                          const DeepOptions& options, Notes* notes) {
   const Metadata& metadata = options.picture.metadata;
-  if (!metadata.icc.empty()) notes->push_back("OpenEXR files do not keep the ICC profile");
+  if (!metadata.icc.empty() && metadata.colours.form.empty()) {
+    notes->push_back(
+        "OpenEXR files do not keep the ICC profile, so that the colours count as BT.709");
+  }
+  NoteCurve(options, notes);
   return EncodeExr(path, image.is_half ? image : ToHalf(image), metadata.colours);
 }
 
@@ -104,8 +117,15 @@ Error CheckDeepExtension(const std::string& path) {
                   extension.empty() ? "no extension" : extension);
 }
 
-// Returns an error if this build cannot encode the format.
-Error CheckEncoder(const std::string& path) {
+}  // namespace
+
+bool IsDeepExtension(const std::string& extension) {
+  constexpr const char* kExtensions[] = {".png", ".tif", ".tiff", ".exr", ".avif", ".heic"};
+  return std::find(std::begin(kExtensions), std::end(kExtensions), extension) !=
+         std::end(kExtensions);
+}
+
+Error CheckDeepEncoder(const std::string& path) {
   const std::string extension = FormatExtension(path);
   if (extension == ".exr") return CheckExrEncoder(path);
   if (IsTiffExtension(extension)) return CheckTiffEncoder(path);
@@ -115,18 +135,10 @@ Error CheckEncoder(const std::string& path) {
   return {};
 }
 
-}  // namespace
-
-bool IsDeepExtension(const std::string& extension) {
-  constexpr const char* kExtensions[] = {".png", ".tif", ".tiff", ".exr", ".avif", ".heic"};
-  return std::find(std::begin(kExtensions), std::end(kExtensions), extension) !=
-         std::end(kExtensions);
-}
-
 Result<Bytes> EncodeDeepPicture(const std::string& path, const DeepImage& image,
                                 const DeepOptions& options, std::vector<std::string>* notes) {
   if (Error error = CheckPictureSize(path, image.width, image.height)) return error;
-  if (Error error = CheckEncoder(path)) return error;
+  if (Error error = CheckDeepEncoder(path)) return error;
   const std::string extension = FormatExtension(path);
   if (extension == ".exr") return EncodeHalf(path, image, options, notes);
   const DeepImage codes = CodesOf(image, options.transfer, notes);
@@ -149,7 +161,7 @@ Error WriteDeepImage(const std::string& path, const DeepImage& image, const Deep
 Error CheckDeepOutput(const std::string& path) {
   Error error = CheckDeepExtension(path);
   if (!error) error = CheckOutputPath(path);
-  if (!error) error = CheckEncoder(path);
+  if (!error) error = CheckDeepEncoder(path);
   if (!error && IsStandardStream(path) && isatty(STDOUT_FILENO) == 1) {
     error = Expected(path, "a file or pipe for a picture", "a terminal");
   }

@@ -19,6 +19,9 @@ inline constexpr char kDeepExtensions[] = ".png, .tif, .tiff, .exr, .avif or .he
 // Returns true if WriteDeepImage supports `extension`, in lower case with its dot.
 bool IsDeepExtension(const std::string& extension);
 
+// Returns an error if this build cannot encode the format that the extension of `path` selects.
+Error CheckDeepEncoder(const std::string& path);
+
 struct DeepOptions {
   // Quality of AVIF and HEIC, metadata, and size of PNG. The primaries of `metadata.colours` apply
   // to the picture in all formats; their transfer is that of the picture.

@@ -10,6 +10,7 @@
 #include <new>
 
 #include "platform/decoders/numbers.h"
+#include "platform/icc_profile.h"
 #include "platform/writers/exif.h"
 
 namespace starfocus {
@@ -71,18 +72,24 @@ heif_error TakeSamples(const DeepImage& image, int bits, heif_image* to) {
   return failure;
 }
 
-// Describes the colours by code points, and otherwise by the profile. The matrix of BT.2020 belongs
-// to its primaries; other pictures have the matrix of BT.601, as JPEG.
+// Describes the colours by code points, and by the profile if there is one. The matrix of BT.2020
+// belongs to its primaries; other pictures have the matrix of BT.601, as JPEG.
 HeifNclx TakeColours(const Metadata& metadata, heif_image* image) {
   constexpr int kBt2020 = 9, kBt709 = 1, kSrgb = 13;
   HeifNclx nclx(heif_nclx_color_profile_alloc());
   if (nclx == nullptr) throw std::bad_alloc();
-  const ColourDescription& colours = metadata.colours;
-  const bool described = !colours.form.empty();
-  const int primaries = described ? colours.primaries : kBt709;
-  heif_nclx_color_profile_set_color_primaries(nclx.get(), static_cast<uint16_t>(primaries));
-  heif_nclx_color_profile_set_transfer_characteristics(
-      nclx.get(), static_cast<uint16_t>(described ? colours.transfer : kSrgb));
+  ColourDescription colours = metadata.colours;
+  if (colours.form.empty()) {
+    colours = metadata.icc.empty() ? ColourDescription{"sRGB", kBt709, kSrgb}
+                                   : DescriptionOf(metadata.icc).value_or(ColourDescription());
+  }
+  constexpr int kLargestCode = 255;
+  const auto code_of = [](int code) {
+    return static_cast<uint16_t>(code > kLargestCode ? ColourDescription::kUnspecified : code);
+  };
+  const int primaries = code_of(colours.primaries);
+  heif_nclx_color_profile_set_color_primaries(nclx.get(), code_of(colours.primaries));
+  heif_nclx_color_profile_set_transfer_characteristics(nclx.get(), code_of(colours.transfer));
   nclx->matrix_coefficients = primaries == kBt2020
                                   ? heif_matrix_coefficients_ITU_R_BT_2020_2_non_constant_luminance
                                   : heif_matrix_coefficients_ITU_R_BT_601_6;

@@ -27,7 +27,7 @@ Error CheckSize(const std::string& path, const Image& image) {
 Result<Bytes> EncodeWebp(const std::string& path, const Image& image,
                          const PictureOptions& options) {
   WebpWriter writer(path, options.quality);
-  if (Error error = writer.Add(image)) return error;
+  if (Error error = writer.Add(image, options.alphas)) return error;
   return writer.Finish(options.metadata);
 }
 

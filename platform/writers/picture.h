@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "platform/file.h"
 #include "platform/image.h"
 #include "platform/metadata.h"
 #include "platform/result.h"
@@ -17,6 +18,7 @@ struct PictureOptions {
   int quality = 95;  // quality of JPEG and WebP pictures, 1 to 100
   Metadata metadata;
   PngSize png_size = PngSize::kQuick;
+  Bytes alphas = {};  // alpha of each pixel of a WebP picture; empty: opaque
 };
 
 // List of the extensions that EncodePicture supports, for use in error messages.

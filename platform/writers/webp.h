@@ -27,7 +27,8 @@ class WebpWriter {
   // limited to 16383 pixels per side, and builds without libwebp cannot write WebP files.
   static Error Check(const std::string& path, int width, int height);
 
-  Error Add(const Image& picture);
+  // Adds a picture. `alphas` has the alpha of each pixel, or is empty.
+  Error Add(const Image& picture, const Bytes& alphas = {});
 
   // Returns the complete WebP file with `metadata`, whose EXIF is edited to match the pictures
   // (exif.h).

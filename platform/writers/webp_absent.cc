@@ -16,7 +16,7 @@ Error WebpWriter::Check(const std::string& path, int, int) {
   return Unsupported(path, "WebP", "libwebp (Debian: libwebp-dev)");
 }
 
-Error WebpWriter::Add(const Image& picture) {
+Error WebpWriter::Add(const Image& picture, const Bytes&) {
   return Check(state_->path, picture.width, picture.height);
 }
 

@@ -5,6 +5,7 @@
 #include <webp/encode.h>
 #include <webp/mux.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -27,6 +28,17 @@ struct Data {
   Data(const Data&) = delete;
   Data& operator=(const Data&) = delete;
 };
+
+bool Import(const Image& picture, const Bytes& alphas, WebPPicture* frame) {
+  const uint8_t* rgb = picture.pixels.data();
+  if (alphas.empty()) return WebPPictureImportRGB(frame, rgb, static_cast<int>(picture.stride()));
+  Bytes rgba(4 * alphas.size());
+  for (size_t k = 0; k < alphas.size(); ++k) {
+    std::copy_n(rgb + 3 * k, 3, &rgba[4 * k]);
+    rgba[4 * k + 3] = alphas[k];
+  }
+  return WebPPictureImportRGBA(frame, rgba.data(), 4 * picture.width);
+}
 
 bool SetChunk(WebPMux* mux, const char* name, const Bytes& bytes) {
   if (bytes.empty()) return true;
@@ -69,7 +81,7 @@ Error WebpWriter::Check(const std::string& path, int width, int height) {
   return Expected(path, "width and height up to 16383 for WebP", SizeText(width, height));
 }
 
-Error WebpWriter::Add(const Image& picture) {
+Error WebpWriter::Add(const Image& picture, const Bytes& alphas) {
   State& state = *state_;
   if (state.encoder == nullptr) {
     if (Error error = state.Begin(picture.width, picture.height)) return error;
@@ -83,9 +95,8 @@ Error WebpWriter::Add(const Image& picture) {
   frame.width = picture.width;
   frame.height = picture.height;
   frame.use_argb = 1;
-  const bool added =
-      WebPPictureImportRGB(&frame, picture.pixels.data(), static_cast<int>(picture.stride())) &&
-      WebPAnimEncoderAdd(state.encoder, &frame, state.Time(), &config);
+  const bool added = Import(picture, alphas, &frame) &&
+                     WebPAnimEncoderAdd(state.encoder, &frame, state.Time(), &config);
   const WebPEncodingError code = frame.error_code;
   WebPPictureFree(&frame);
   if (added) {

@@ -92,6 +92,10 @@ TEST_CASE("map golden: maps match the recorded checksums on every machine and SI
       {"repair, 1 view, 3 rows of tiles", {}, 1, true, 0xCE2F4D00AC427D67U, 72, 0, 400},
       {"repair, 1 view, 3 tiles", {}, 1, true, 0xDC147EEEB660E2E3U, 400, 110},
       {"repair, 5 views, 3 tiles", {}, 5, true, 0xF08328215A52F0E2U, 400, 110},
+      // Fewer pixels than a vector, and narrower than a patch.
+      {"estimate, 5 views, one row", {}, 5, false, 0x2C7864A7611DD0C7U, 33, 0, 1},
+      {"repair, 9 views, one column", {}, 9, true, 0x57D91FDB7DC63D5DU, 1, -20, 30},
+      {"repair, 5 views, small", {}, 5, true, 0xBF0F082DB5E89B75U, 17, -12, 9},
   };
   for (const Row& row : kRows) {
     const IntegerPlanes planes(row.width, row.height, row.left);

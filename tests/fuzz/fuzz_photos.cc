@@ -21,6 +21,7 @@
 #include "platform/readers/heic.h"
 #include "platform/readers/heif_boxes.h"
 #include "platform/readers/photo_scale.h"
+#include "platform/readers/sample_bits.h"
 #include "platform/readers/stereo_pair.h"
 #include "platform/readers/xmp.h"
 #include "platform/writers/jpeg_segments.h"
@@ -143,6 +144,7 @@ void CheckPhoto(const uint8_t* data, size_t size) {
   const Near near = size % 2 == 0 ? Near::kUnknown : Near::kWhite;
   Result<DepthPhoto> decoded = DecodeDepthPhoto("photo", {data, size}, true, near);
   budget.reset();
+  Must(StatedSamplesOf(Bytes(data, data + size)).bits >= 0);
   if (!decoded) return;
   DepthPhoto& photo = *decoded;
   Must(!photo.picture.pixels.empty());
@@ -150,6 +152,7 @@ void CheckPhoto(const uint8_t* data, size_t size) {
   CheckGain(photo);
   const Bytes& icc = photo.metadata.icc;
   Must(icc.empty() || IsRgbProfile(icc));
+  Must(!DescriptionOf(icc) || !icc.empty());
   if (photo.map.values.empty() && photo.matte.values.empty()) {
     return Must(!ReadStereoPair("photo", {data, size}, &photo) ||
                 photo.right.pixels.size() == photo.picture.pixels.size());

@@ -30,7 +30,6 @@ TEST_CASE("kernels: at least two SIMD targets run on this machine") {
 #if HWY_ARCH_X86 && !defined(HWY_COMPILE_ONLY_STATIC)
   CHECK(all.size() > 1);
 #endif
-  CHECK(std::string(starfocus_simd_target()) == BestKernels().name);
 }
 
 TEST_CASE("kernels: ListTargets throws if no SIMD target runs on this machine") {

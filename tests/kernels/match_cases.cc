@@ -221,3 +221,57 @@ void AddPrior(Draw* draw, DepthCall* call) {
 }
 
 }  // namespace test::depth_cases
+
+namespace test::depth_cases {
+namespace {
+
+constexpr size_t kSquareStride = 70;
+
+// Returns two pictures of one size that are noise, or alike.
+std::pair<std::vector<uint8_t>, std::vector<uint8_t>> Alike(size_t count, Draw* draw) {
+  std::vector<uint8_t> a = RandomBytes(count, draw), b = RandomBytes(count, draw);
+  if (draw->Int(0, 2) == 0) return {a, b};
+  const int noise = draw->Int(0, 12);
+  for (size_t n = 0; n < count; ++n) {
+    b[n] = uint8_t(std::clamp(a[n] + draw->Int(-noise, noise), 0, 255));
+  }
+  return {a, b};
+}
+
+}  // namespace
+
+void CompareSquares(Draw* draw, DepthCall* call) {
+  const auto [a, b] = Alike(15 * kSquareStride + kCompared, draw);
+  const uint8_t *of_a = call->Input("a", a), *of_b = call->Input("b", b);
+  call->Calls(&DepthKernels::CompareSquares, of_a, of_b, kSquareStride);
+}
+
+void LimitBlock(Draw* draw, DepthCall* call) {
+  const auto colours = RandomBytes(9 * kSquareStride + 30, draw);
+  const uint8_t* rgb = call->Input("rgb", colours) + kSquareStride + 3;
+  auto* limits = call->Results<uint16_t>("limits", kFollowed * kFollowed);
+  call->Calls(&DepthKernels::LimitBlock, rgb, kSquareStride, uint16_t(draw->Int(0, 32767)), limits);
+}
+
+void FollowBlock(Draw* draw, DepthCall* call) {
+  const auto [now, before] = Alike(9 * kSquareStride + 30, draw);
+  const size_t stride = draw->Size(8, 20, 8), count = 7 * stride + 8;
+  FollowedBlock block = {};
+  block.now = call->Input("now", now) + kSquareStride + 3;
+  block.before = call->Input("before", before) + kSquareStride + 3;
+  block.stride = kSquareStride;
+  block.given = call->Input("given", Disparities(count, draw));
+  block.known = call->Input("known", Disparities(count, draw));
+  block.given_stride = block.known_stride = stride;
+  const size_t pixels = kFollowed * kFollowed;
+  const uint16_t* limits = call->Input("limits", Ints<uint16_t>(pixels, 0, 7000, draw));
+  auto* costs = call->Results<uint16_t>("costs", pixels);
+  auto* choices = call->Results<uint16_t>("choices", pixels);
+  for (size_t n = 0; n < pixels; ++n) {
+    costs[n] = draw->Rarely(3) ? kNoCost : uint16_t(draw->Int(0, 7100));
+    choices[n] = uint16_t(draw->Int(0, 8));
+  }
+  call->Calls(&DepthKernels::FollowBlock, block, limits, uint16_t{9}, costs, choices);
+}
+
+}  // namespace test::depth_cases

@@ -18,6 +18,7 @@
 #include "tests/support/images.h"
 #include "tests/support/inside.h"
 #include "tests/support/refocused.h"
+#include "tests/support/rounds.h"
 #include "tests/support/scenes.h"
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
@@ -94,6 +95,9 @@ Words Refocused(test::Engine* engine, const starfocus::Params& params, DeepField
   return out;
 }
 
+// Rows of scenes of several superblocks; slow builds have superblocks only across.
+constexpr int kRows = test::kSlow ? 60 : 140;
+
 const auto kExpand = [](uint16_t* to, const uint8_t* codes) {
   for (int c = 0; c < 3; ++c) to[c] = uint16_t(257 * codes[c]);
 };
@@ -110,7 +114,7 @@ auto Bright(double gain) {
 TEST_CASE("deep: codes of 8 bits in 16 bits give the picture of 8 bits") {
   for (const starfocus_mode mode : test::kModes) {
     for (const int views : {1, 5}) {
-      const test::Scene scene = test::LayeredScene(150, 140, views, 8, 21);
+      const test::Scene scene = test::LayeredScene(150, kRows, views, 8, 21);
       const starfocus::Params params = test::Params(3, 1, mode);
       const test::Output expected = test::OutputOf(test::ConfigFor(scene, 24), params, scene);
       DeepField field(scene, STARFOCUS_FORMAT_RGB16, kExpand);
@@ -166,7 +170,9 @@ TEST_CASE("deep: every level of a constant picture stays within 2^-14 of white")
     test::Config config = DeepConfig(scene);
     config.transfer = STARFOCUS_TRANSFER_NONE;
     test::Engine engine(config);
-    for (int level = 0; level < 65536; level += level < 64 ? 1 : 397) {
+    // Slow builds skip most levels.
+    constexpr int kDark = test::kSlow ? 4 : 64, kStep = test::kSlow ? 3970 : 397;
+    for (int level = 0; level < 65536; level += level < kDark ? 1 : kStep) {
       const uint16_t code = uint16_t(level);
       DeepField field(scene, format, [&](uint16_t* to, const uint8_t*) {
         for (int c = 0; c < Channels(format); ++c) to[c] = c == 3 ? uint16_t{65535} : code;
@@ -189,7 +195,8 @@ TEST_CASE("deep: every level of a constant picture stays within 2^-14 of white")
 TEST_CASE("deep: light beyond white is refocused like light below it") {
   for (const int views : {1, 5}) {
     for (const starfocus_mode mode : test::kModes) {
-      const test::Scene scene = test::LayeredScene(150, 140, views, 8, 23);
+      if (test::kSlow && views > 1 && mode != STARFOCUS_MODE_BLOCK) continue;
+      const test::Scene scene = test::LayeredScene(150, kRows, views, 8, 23);
       test::Config config = DeepConfig(scene);
       config.features &= ~STARFOCUS_FEATURE_COVERAGE;  // which depends on colours
       test::Engine engine(config);

@@ -160,7 +160,7 @@ inline void CheckFailingRunner(const Operation& operation) {
 }
 
 // Cancels an operation at each of its progress calls in turn. In slow builds, the operation is
-// cancelled at the first ten calls, and then only at every seventh call. After each cancellation,
+// cancelled at the first ten calls, and then only at every 17th call. After each cancellation,
 // the same engine must return the result of a new engine.
 inline void CheckCancelling(const Operation& operation) {
   CAPTURE(operation.name);
@@ -171,7 +171,7 @@ inline void CheckCancelling(const Operation& operation) {
     Setup setup;
     setup.workers = 2;
     const Run run = operation.set_up(setup);
-    for (int stop = 0;; stop += test::kSlow && stop >= 10 ? 7 : 1) {
+    for (int stop = 0;; stop += test::kSlow && stop >= 10 ? 17 : 1) {
       CAPTURE(stop);
       test::Watch watch(stop);
       starfocus_callbacks callbacks = test::ToldTo(test::Watch::Progress, &watch);

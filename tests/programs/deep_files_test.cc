@@ -17,8 +17,10 @@
 #include "platform/deep_image.h"
 #include "platform/depth_file.h"
 #include "platform/image_io.h"
+#include "platform/readers/deep_photo.h"
 #include "platform/readers/depth_photo_file.h"
 #include "platform/readers/orientation.h"
+#include "platform/readers/sample_bits.h"
 #include "platform/writers/deep_picture.h"
 #include "platform/writers/exr.h"
 #include "platform/writers/heif.h"
@@ -168,15 +170,40 @@ TEST_CASE("PNG: 16 bits and alpha are read as codes of 16 bits beside the pictur
   });
 }
 
-TEST_CASE("facts: bits, transfer, primaries, alpha and headroom describe pictures of 16 bits") {
+TEST_CASE("PPM: a white above 255 gives codes of 16 bits, and the bits of the white") {
+  const std::string samples = Samples16({1023, 512, 0, 2000, 1, 2});
+  const DecodedPicture picture = ValueOf(Decode("P6 2 1 1023\n" + samples));
+  REQUIRE(picture.deep);
+  CHECK(picture.bits == 10);
+  CHECK(picture.deep->samples == Words{65535, 32800, 0, 65535, 64, 128});
+  CHECK(picture.image.pixels == Bytes{255, 128, 0, 255, 0, 0});
+  const DecodedPicture grey = ValueOf(Decode("P5 1 1 65535\n" + Samples16({700})));
+  REQUIRE(grey.deep);
+  CHECK(grey.bits == 16);
+  CHECK(grey.deep->samples == Words{700, 700, 700});
+  CHECK(!ValueOf(Decode("P6 1 1 255\n\1\2\3")).deep);
+}
+
+TEST_CASE("facts: bits, transfer, primaries, alpha and headroom describe pictures") {
   const auto facts = [](const std::string& file) {
-    const Result<DepthPhoto> photo = ReadPhoto(file);
+    Result<DepthPhoto> photo = ReadPhoto(file);
     REQUIRE(photo == "");
-    return photo->facts;
+    LightField views;
+    views.deep_colours = photo->deep_colours;
+    views.is_linear = photo->is_linear;
+    if (photo->deep) views.deep.push_back(*photo->deep);
+    return FactsOfLight(views, photo->metadata, photo->gain_map);
   };
   constexpr int kRgb = 2, kRgba = 6;
   if (HasLibpng()) {
-    CHECK(facts(Png(1, 1, {8, kRgb}, "\1\2\3", 3)).empty());
+    CHECK(facts(Png(1, 1, {8, kRgb}, "\1\2\3", 3)) ==
+          FactList{{"samples", "8 bits, integers"}, {"transfer", "sRGB"}, {"primaries", "BT.709"}});
+    CHECK(facts(Png(1, 1, {8, kRgb, Cicp(12, 8)}, "\1\2\3", 3)) ==
+          FactList{{"samples", "8 bits, integers"},
+                   {"transfer", "linear light"},
+                   {"primaries", "Display P3"}});
+    CHECK(facts(Png(1, 1, {8, kRgb, Cicp(9, 1)}, "\1\2\3", 3))[1].second ==
+          "gamma 1.95, decoded as sRGB");
     CHECK(facts(Png(1, 1, {8, kRgba}, "\1\2\3\4", 4)) == FactList{{"samples", "8 bits, integers"},
                                                                   {"transfer", "sRGB"},
                                                                   {"primaries", "BT.709"},
@@ -412,6 +439,8 @@ TEST_CASE("TIFF: pictures of 8 and 16 bits and of floats are read, with alpha") 
        {257, 514, 771, 1028},
        {1, 2, 3}},
   });
+  CHECK(StatedSamplesOf(BytesOf(Tiff(1, 3, 32, {{kFormat, kFloat}}, ""))).is_float);
+  CHECK(StatedSamplesOf(BytesOf(Tiff(1, 3, 8, {}, ""))).bits == 8);
   const std::string lights = LittleFloat(2) + LittleFloat(-0.5F) + LittleFloat(1e9F);
   CHECK(LightsOf(Decode(Tiff(1, 3, 32, {{kFormat, kFloat}}, lights))) ==
         std::vector<float>{2, -0.5F, 65504});
@@ -455,6 +484,8 @@ TEST_CASE("writers: TIFF of 16 bits keeps all codes, alpha and profile, and tiff
     const Written written = WriteAndRead(folder, "a.tif", image, options);
     CHECK(written.picture.deep->samples == image.samples);
     CHECK(written.picture.metadata.icc == options.picture.metadata.icc);
+    CHECK(StatedSamplesOf(written.bytes).bits == 16);
+    CHECK(!StatedSamplesOf(written.bytes).is_float);
     if (!asks) continue;
     const std::string text = Ask(folder, "tiffinfo '" + folder.file("a.tif") + "'");
     CHECK(Contains(text, "Bits/Sample: 16\n"));
@@ -482,6 +513,7 @@ TEST_CASE("writers: AVIF and HEIC keep codes within their bits, alpha and code p
       options.picture.metadata.colours = {"cICP", 9, 16};
       const Written written = WriteAndRead(folder, name, image, options);
       const DeepImage& deep = *written.picture.deep;
+      CHECK(StatedSamplesOf(written.bytes).bits == deep.bits);
       CHECK(std::tuple(deep.width, deep.height, deep.channels, deep.transfer) ==
             std::tuple(67, 34, channels, kPq));
       CHECK(written.picture.metadata.colours.primaries == 9);

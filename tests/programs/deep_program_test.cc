@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/colour_description.h"
 #include "platform/deep_image.h"
 #include "platform/gain_map.h"
 #include "platform/image_io.h"
@@ -19,7 +20,9 @@
 #include "platform/readers/capture.h"
 #include "platform/readers/xmp.h"
 #include "platform/writers/exr.h"
+#include "platform/writers/tiff.h"
 #include "platform/writers/ultra_hdr.h"
+#include "platform/writers/webp.h"
 #include "tests/programs/session.h"
 #include "tests/support/photo_files.h"
 
@@ -65,6 +68,11 @@ std::string DeepPng(int bytes, int channels, const std::string& more) {
 // Returns the chunk that describes PQ with the primaries of BT.2020.
 std::string PqChunk() { return Chunk("cICP", std::string("\x09\x10\0\x01", 4)); }
 
+// Returns the chunk that describes Display P3 with a transfer of H.273.
+std::string P3Chunk(const std::string& transfer) {
+  return Chunk("cICP", "\x0c" + transfer + std::string("\0\x01", 2));
+}
+
 // Returns a grey photo whose lamp is 8 times as bright as white.
 std::string GainMapPhoto() {
   Image base = Plain(kWide, kHigh, 100);
@@ -83,19 +91,55 @@ std::string GainMapPhoto() {
   return {file.begin(), file.end()};
 }
 
+// Returns linear light with a pixel that is not a number, two negative ones and a too bright one.
+DeepImage DamagedLights() {
+  DeepImage lights(kWide, kHigh, 3);
+  lights.is_half = true;
+  std::fill(lights.samples.begin(), lights.samples.end(), HalfOfFloat(0.5F));
+  lights.row(9)[30] = HalfOfFloat(NAN);
+  lights.row(9)[60] = lights.row(20)[62] = HalfOfFloat(-0.25F);
+  lights.row(30)[90] = HalfOfFloat(100);
+  return lights;
+}
+
 // Writes photos whose left half is near, each with its depth picture.
 void MakeDeepPhotos(const TempFolder& folder) {
   Image map = Plain(kWide, kHigh, 0);
   for (int y = 0; y < kHigh; ++y) std::fill_n(map.row(y), 3 * kWide / 2, uint8_t{255});
   const std::string depth = Encode(map, ".png");
-  const std::pair<const char*, std::string> kFiles[] = {{"rgb16.png", DeepPng(2, 3, "")},
-                                                        {"rgba16.png", DeepPng(2, 4, "")},
-                                                        {"rgba8.png", DeepPng(1, 4, "")},
-                                                        {"pq.png", DeepPng(2, 3, PqChunk())},
-                                                        {"gain.jpg", GainMapPhoto()}};
+  const std::pair<const char*, std::string> kFiles[] = {
+      {"rgb16.png", DeepPng(2, 3, "")},
+      {"rgba16.png", DeepPng(2, 4, "")},
+      {"rgba8.png", DeepPng(1, 4, "")},
+      {"pq.png", DeepPng(2, 3, PqChunk())},
+      {"p3.png", DeepPng(1, 3, P3Chunk("\r"))},
+      {"linear.png", DeepPng(1, 3, P3Chunk("\b"))},
+      {"gain.jpg", GainMapPhoto()}};
   for (const auto& [name, bytes] : kFiles) {
     Write(folder.file(name), bytes);
     Write(folder.file(std::filesystem::path(name).stem().string() + "-depth.png"), depth);
+  }
+  const DeepImage lights = DamagedLights();
+  const Bytes exr = ValueOf(EncodeExr("a.exr", lights, {}));
+  Write(folder.file("damaged.exr"), {exr.begin(), exr.end()});
+  DeepImage codes(kWide, kHigh, 3);
+  std::string ppm = "P6 96 64 65535\n";
+  uint32_t seed = 2;
+  for (uint16_t& code : codes.samples) {
+    code = static_cast<uint16_t>(Random(&seed));
+    ppm += Big(code, 2);
+  }
+  Write(folder.file("wide.ppm"), ppm);
+  const Bytes tiff = ValueOf(EncodeTiff("a.tif", codes, {}));
+  Write(folder.file("deep.tif"), {tiff.begin(), tiff.end()});
+  // One colour, of which the lower half is half transparent.
+  constexpr char kWebp[] =
+      "RIFF\x28\0\0\0WEBPVP8L\x1c\0\0\0/"
+      "_\xc0\x0f\x10\x0f\x30P\x83<(\xff\x03\x8c\x07\x88\x05\x93\xfc\xa5S\xd8\x19"
+      "\xd1\xff\x9c?~";
+  Write(folder.file("clear.webp"), std::string(kWebp, sizeof(kWebp) - 1));
+  for (const char* name : {"damaged", "wide", "deep", "clear"}) {
+    Write(folder.file(std::string(name) + "-depth.png"), depth);
   }
   Write(folder.file("map.png"), depth);
 }
@@ -114,8 +158,10 @@ DeepImage Deep(const TempFolder& folder, const std::string& name) {
 bool HasLibraries() {
   const Result<DecodedPicture> deep = DecodeImage(
       "a", [](const std::string& png) { return Bytes(png.begin(), png.end()); }(DeepPng(2, 4, "")));
-  if (CanReadXmp() && deep && deep->deep && !CheckExrEncoder("a.exr")) return true;
-  std::printf("SKIPPED: this build lacks libpng, OpenEXR or an XML parser\n");
+  const bool writes =
+      !CheckExrEncoder("a.exr") && !CheckTiffEncoder("a.tif") && !WebpWriter::Check("a.webp", 1, 1);
+  if (CanReadXmp() && deep && deep->deep && writes) return true;
+  std::printf("SKIPPED: this build lacks libpng, libwebp, libtiff, OpenEXR or an XML parser\n");
   return false;
 }
 
@@ -263,6 +309,63 @@ TEST_CASE("deep pictures: the new gain map of a photo has the refocused light") 
   CHECK(Contains(first, "DirectoryItemSemantic           : GainMap"));
   CHECK(!Contains(first, "Warning"));
   CHECK(Contains(Text(folder.file("second")), "[XMP-hdrgm]     GainMapMax"));
+}
+
+// Writes a light field of one view whose rows have the codes start + step * y of 16 bits.
+void MakeRamp(const TempFolder& folder, const std::string& name, int start, int step) {
+  std::filesystem::create_directory(folder.file(name));
+  const FloatMap map = {kWide, kHigh, std::vector<float>(size_t(kWide) * kHigh, 3)};
+  REQUIRE(WritePfm(folder.file(name + "/disparity.pfm"), map) == "");
+  std::string samples;
+  for (int y = 0; y < kHigh; ++y) {
+    for (int k = 0; k < 3 * kWide; ++k) samples += Big(uint32_t(start + step * y), 2);
+  }
+  Write(folder.file(name + "/view_+0.0_+0.0.png"),
+        Png(kWide, kHigh, {16, 2}, samples, size_t(6) * kWide));
+}
+
+TEST_CASE("deep pictures: 8 bits of a sky have its mean light, and whole codes stay flat") {
+  if (!HasLibraries()) return;
+  TempFolder folder;
+  constexpr int kRows = 32;
+  MakeRamp(folder, "sky", 25744, 6);   // from 100.2 on, a code of 8 bits every 43 rows
+  MakeRamp(folder, "flat", 25708, 0);  // less than a sixteenth of a code above 100
+  for (const char* output :
+       {"sky --focus 0 -o sky.ppm", "sky --focus 0 -o sky.png", "flat --focus 0 -o flat.ppm"}) {
+    Succeed(folder, std::string("refocus ") + output);
+  }
+  const Image sky = Decoded(folder, "sky.ppm").image, flat = Decoded(folder, "flat.ppm").image;
+  const DeepImage exact = Deep(folder, "sky.png");
+  double largest = 0;  // in codes of 8 bits; rounding errs by up to 0.4
+  for (int top = 0; top + kRows <= kHigh; ++top) {
+    double sum = 0;
+    for (int y = top; y < top + kRows; ++y) {
+      for (int k = 0; k < 3 * kWide; ++k) sum += sky.row(y)[k] - exact.row(y)[k] / 257.0;
+    }
+    largest = std::max(largest, std::fabs(sum / (3 * kWide * kRows)));
+  }
+  CHECK(largest < 0.1);
+  CHECK(std::all_of(flat.pixels.begin(), flat.pixels.end(),
+                    [&flat](uint8_t code) { return code == flat.pixels[0]; }));
+}
+
+TEST_CASE("deep pictures: linear photos of 8 bits keep their light and primaries in EXR files") {
+  if (!HasLibraries()) return;
+  TempFolder folder;
+  MakeDeepPhotos(folder);
+  Succeed(folder, "refocus linear.png" + std::string(kFocus) + "out.exr");
+  const Image in = Decoded(folder, "linear.png").image;
+  const DecodedPicture out = Decoded(folder, "out.exr");
+  CHECK(PrimariesCodeOf(out.metadata.colours) == 12);
+  REQUIRE(out.deep);
+  double largest = 0;
+  for (int y = 0; y < kHigh; ++y) {
+    for (int k = 0; k < 3 * kSharp; ++k) {
+      const double light = double{FloatOfHalf(out.deep->row(y)[k])};
+      largest = std::max(largest, std::fabs(light - in.row(y)[k] / 255.0));
+    }
+  }
+  CHECK(largest < 0.001);  // The curve of sRGB changes middle codes by 0.29.
 }
 
 TEST_CASE("deep pictures: an EXR light field keeps light beyond white, and other files tell") {

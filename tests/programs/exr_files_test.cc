@@ -126,7 +126,7 @@ TEST_CASE("OpenEXR: the channel Z is the depth of the picture in the same file")
   CHECK(ReadPhoto(Exr({Colours(1)}))->map.values.empty());
 }
 
-TEST_CASE("OpenEXR: samples that are not finite are replaced, and a note counts them") {
+TEST_CASE("OpenEXR: infinite samples are limited, and unusable light is counted") {
   if (!HasExr()) return;
   const float infinity = std::numeric_limits<float>::infinity();
   const ExrPart part = {{{"B", true, {infinity, -infinity}},
@@ -138,9 +138,14 @@ TEST_CASE("OpenEXR: samples that are not finite are replaced, and a note counts 
   const Result<DepthPhoto> photo =
       DecodeDepthPhoto("a.exr", {file.data(), file.size()}, false, Near::kUnknown);
   REQUIRE(photo == "");
-  CHECK(LightsOf(*photo->deep) == std::vector<float>{65504, 65504, 65504, 1, 0, -65504});
-  REQUIRE(!photo->notes.empty());
-  CHECK(Contains(photo->notes[0], "4 samples that are infinite, not a number or beyond 65504"));
+  std::vector<float> lights = LightsOf(*photo->deep);
+  CHECK(std::isnan(lights[4]));
+  lights[4] = 0;
+  CHECK(lights == std::vector<float>{65504, 65504, 65504, 1, 0, -65504});
+  CHECK(photo->picture.pixels == Bytes{255, 255, 255, 255, 0, 0});
+  UnusableLight counts;
+  CountUnusable(*photo->deep, &counts);
+  CHECK(std::tuple(counts.not_a_number, counts.negative, counts.too_bright) == std::tuple(1, 1, 1));
 }
 
 TEST_CASE("OpenEXR: depth, disparities and mattes are read from their channels") {

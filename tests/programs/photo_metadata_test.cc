@@ -97,6 +97,55 @@ TEST_CASE("profiles: primaries are adapted to D50, and equal codes are neutral")
   CHECK(profiles == 12);  // 11 primaries of H.273, and unspecified ones
 }
 
+TEST_CASE("profiles: primaries and curves are found again, also without an adaptation matrix") {
+  for (const int primaries : {1, 4, 5, 8, 9, 11, 12, 22}) {
+    for (const int transfer : {8, 13}) {
+      CAPTURE(primaries);
+      Bytes icc = ProfileOf({"test", primaries, transfer});
+      const std::optional<ColourDescription> found = DescriptionOf(icc);
+      REQUIRE(found);
+      CHECK(found->primaries == primaries);
+      CHECK(found->transfer == transfer);
+    }
+  }
+  const Bytes adobe = ProfileOf({"test", kAdobe, kAdobe});
+  REQUIRE(DescriptionOf(adobe));
+  CHECK(PrimariesNameOf(*DescriptionOf(adobe)) == "Adobe RGB");
+  CHECK(TransferNameOf(*DescriptionOf(adobe)) == "gamma 2.20");
+  // Profiles of version 2 state the white of the display instead of a matrix.
+  const auto find = [](Bytes* icc, const char* name) {
+    return std::search(icc->begin(), icc->end(), name, name + 4);
+  };
+  Bytes old = ProfileOf({"test", 12, 13});
+  *find(&old, "chad") = 'x';
+  const double d65[] = {0.95047, 1, 1.08883};
+  const auto white = find(&old, "wtpt");
+  const size_t at = size_t(white[6]) << 8 | white[7];
+  for (size_t k = 0; k < 3; ++k) {
+    const auto number = static_cast<uint32_t>(std::lround(65536 * d65[k]));
+    for (size_t b = 0; b < 4; ++b) {
+      old[at + 8 + 4 * k + b] = static_cast<uint8_t>(number >> (24 - 8 * b));
+    }
+  }
+  REQUIRE(DescriptionOf(old));
+  CHECK(DescriptionOf(old)->primaries == 12);
+  // Curves of tables, and damaged profiles.
+  Bytes table = ProfileOf({"test", 12, 8});
+  const auto curve = find(&table, "para");
+  constexpr uint8_t kGamma[] = {'c', 'u', 'r', 'v', 0, 0, 0, 0, 0, 0, 0, 0};
+  std::copy(std::begin(kGamma), std::end(kGamma), curve);
+  REQUIRE(DescriptionOf(table));
+  CHECK(DescriptionOf(table)->transfer == 8);
+  curve[11] = 200;  // more entries than the element has bytes
+  CHECK(!DescriptionOf(table));
+  for (const char* name : {"rXYZ", "gTRC", "wtpt"}) {
+    CAPTURE(name);
+    Bytes damaged = old;
+    *find(&damaged, name) = 'x';
+    CHECK(!DescriptionOf(damaged));
+  }
+}
+
 TEST_CASE("profiles: curves convert codes to light as the transfer defines") {
   const struct {
     int transfer;

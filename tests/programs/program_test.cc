@@ -113,7 +113,7 @@ TEST_CASE(
   for (const char* way : {"--help", "-h"}) CHECK(Call(folder, way).out == all.out);
   for (const std::string command :
        {"refocus", "disparity", "video", "view", "info", "import", "help", "scene", "compare",
-        "sheet", "analyze", "calibrate", "steps"}) {
+        "flicker", "sheet", "analyze", "calibrate", "steps"}) {
     CAPTURE(command);
     const bool lab = Contains(ProgramFor(command), "-lab");
     CHECK(Contains(all.out, "\n  " + command + " ") == !lab);

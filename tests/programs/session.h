@@ -47,7 +47,8 @@ namespace starfocus {
 // Returns the program that has the subcommand at the start of `arguments`.
 inline std::string ProgramFor(const std::string& arguments) {
   const std::string command = arguments.substr(0, arguments.find(' '));
-  for (const char* one : {"analyze", "calibrate", "compare", "scene", "sheet", "steps"}) {
+  for (const char* one :
+       {"analyze", "calibrate", "compare", "flicker", "scene", "sheet", "steps"}) {
     if (command == one) return STARFOCUS_PROGRAM "-lab";
   }
   return STARFOCUS_PROGRAM;

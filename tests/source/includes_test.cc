@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 // Source files may include headers of their own folder and headers of earlier folders in this list.
 const std::vector<std::string> kRooms = {"simd",          "lib/base",   "lib/optics", "lib/io",
                                          "lib/matting",   "lib/plan",   "lib/gather", "lib/slices",
-                                         "lib/line_scan", "lib/engine", "lib/depth",  "lib/api"};
+                                         "lib/line_scan", "lib/engine", "lib/depth",  "lib/video",
+                                         "lib/api"};
 
 struct Include {
   std::string from, to;  // paths relative to the root of the project

@@ -31,6 +31,25 @@ Error CheckFolder(const std::string& folder) {
   return files.empty() ? Error() : Expected(folder, "a folder without a light field", files[0]);
 }
 
+// Prints notes about what the light field does not keep of the input. Its views keep the bits, the
+// alpha and the colours of deep pictures.
+void TellDropped(const Capture& capture) {
+  const LightField& light_field = capture.light_field;
+  const Metadata& metadata = capture.metadata;
+  const bool is_deep = !light_field.deep.empty();
+  const bool has_colours =
+      !metadata.icc.empty() || !IsSrgb(metadata.colours) || light_field.is_linear;
+  if (has_colours && !(is_deep && !light_field.deep_colours.form.empty())) {
+    TellNote(capture.path,
+             "the light field does not keep the colour profile, and its views count as "
+             "sRGB (refocus and video read the photo itself, with its colours)");
+  }
+  if (!capture.gain_map.levels.empty()) {
+    TellNote(capture.path, "the light field does not keep the gain map");
+  }
+  if (!is_deep) TellLost(capture);
+}
+
 void Tell(const ImportOptions& options, const Capture& capture) {
   if (options.json) {
     PrintLine(Describe(capture).Text());
@@ -38,7 +57,7 @@ void Tell(const ImportOptions& options, const Capture& capture) {
   }
   const LightField& light_field = capture.light_field;
   PrintLine(capture.path + ": " + capture.format);
-  for (const auto& fact : capture.facts) PrintLine("  " + fact.first + ": " + fact.second);
+  for (const auto& fact : FactsOf(capture)) PrintLine("  " + fact.first + ": " + fact.second);
   const Image& view = light_field.views[0];
   PrintLine(options.folder + ": " + std::to_string(light_field.views.size()) +
             (light_field.views.size() == 1 ? " view of " : " views of ") +
@@ -56,17 +75,13 @@ Error Run(const ImportOptions& options) {
   if (Error error = CheckFolderApart({"DIR", options.folder}, {options.input.path})) return error;
   if (Error error = CheckFolderOutput({"DIR", options.folder})) return error;
   if (Error error = CheckFolder(options.folder)) return error;
-  Result<Capture> opened = OpenInput(options.input);
+  Result<Capture> opened = ReadInput(options.input);
   if (!opened) return opened.error();
   Capture& capture = *opened;
-  const Metadata& kept = capture.metadata;
-  if (!kept.icc.empty() || !IsSrgb(kept.colours) || capture.light_field.is_linear) {
-    TellNote(capture.path,
-             "the light field does not keep the colour profile, and its views count as "
-             "sRGB (refocus and video read the photo itself, with its colours)");
-  }
+  TellNotes(capture);
   ThreadRunner runner(options.threads);
   if (Error error = LoadCapture(options.views, &capture, &runner)) return error;
+  TellDropped(capture);
   if (Error error = CareForMap(options.map, options.threads, &capture)) return error;
   if (Error error = SaveLightField(options.folder, capture.light_field, &runner)) return error;
   Tell(options, capture);

@@ -49,7 +49,7 @@ void PrintText(const Capture& capture, const starfocus_disparity_stats& stats,
   }
   PrintLine(capture.path);
   PrintRow("format", capture.format);
-  for (const auto& fact : capture.facts) PrintRow(fact.first, fact.second);
+  for (const auto& fact : FactsOf(capture)) PrintRow(fact.first, fact.second);
   const Image& view = light_field.views[0];
   PrintRow("size", SizeText(view.width, view.height) + " pixels");
   PrintRow("views", views);
@@ -89,9 +89,10 @@ bool HasMap(const Capture& capture) {
 }
 
 Error Run(const InfoOptions& options) {
-  Result<Capture> opened = OpenInput(options.input);
+  Result<Capture> opened = ReadInput(options.input);
   if (!opened) return opened.error();
   Capture& capture = *opened;
+  TellNotes(capture);
   if (Error error = HasMap(capture) ? LoadInput({}, 1, &capture) : LoadCapture({}, &capture))
     return error;
   const FloatMap& map = capture.light_field.disparity;

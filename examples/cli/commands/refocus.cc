@@ -66,12 +66,22 @@ std::vector<OutputPath> ListOutputs(const RefocusOptions& options) {
   return outputs;
 }
 
+// Returns the error for a picture whose extension no writer supports.
+Error UnknownFormat(const std::string& path, const std::string& extension) {
+  return Expected(path,
+                  "a name ending in .png, .ppm, .jpg, .webp, .tif, .tiff, .exr, .avif or .heic",
+                  extension.empty() ? "no extension" : extension);
+}
+
 Error CheckOutputs(const RefocusOptions& options) {
   const std::vector<OutputPath> outputs = ListOutputs(options);
   const std::string& out = options.output.out;
   const auto check = [&](const std::string& path) {
-    const bool is_deep = path == out && options.sweep.empty() && KeepsBits(path);
-    return is_deep ? CheckDeepOutput(path) : CheckImageOutput(path);
+    const bool may_be_deep = path == out && options.sweep.empty();
+    const std::string extension = FormatExtension(path);
+    if (may_be_deep && KeepsBits(path)) return CheckDeepOutput(path);
+    if (may_be_deep && !IsPictureExtension(extension)) return UnknownFormat(path, extension);
+    return CheckImageOutput(path);
   };
   Error error = out.empty() ? Error() : check(out);
   for (size_t i = 0; i < outputs.size() && !error; ++i) {
@@ -234,6 +244,8 @@ Error RunOne(const RefocusOptions& options, const PictureOptions& how, const Len
   const std::string& out = options.output.out;
   if (task.deep_picture && KeepsBits(out)) {
     write = [&] { return WriteDeepResult(out, how, capture, result); };
+  } else if (task.deep_picture && WritesWebpAlpha(options.output, capture)) {
+    write = [&] { return WriteWebpAlpha(out, how, result); };
   } else if (task.deep_picture && !out.empty() && !options.output.depth_photo) {
     write = [&] { return WriteImage(out, result.picture, how); };
   } else if (WritesGainMap(options.output, capture)) {
@@ -344,8 +356,9 @@ Error RunInputs(const RefocusOptions& options, const Batch& batch) {
 
 Error Run(const RefocusOptions& options) {
   SetDecoderThreads(options.lens.threads);
+  const bool has_8_bits = options.lens.highlights > 1 || options.output.depth_photo;
   const Result<std::optional<Batch>> batch =
-      PlanBatch(options.inputs, options.output.out, RunsCommand(options.input));
+      PlanBatch(options.inputs, options.output.out, RunsCommand(options.input), has_8_bits);
   if (!batch) return batch.error();
   if (*batch) return RunInputs(options, **batch);
   RefocusOptions one = options;

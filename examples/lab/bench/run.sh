@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: ./do bench [--quick | --speed | --check | --record | --micro]
+# usage: ./do bench [--quick | --speed | --check | --record | --micro | --flicker]
 #
 # Measures time and error of every mode, and writes a report: build/bench/report.html.
 #   --quick   small pictures, few of them: a minute or two
@@ -9,6 +9,8 @@
 #   --check   only compares instruction counts with examples/lab/bench/baseline.txt
 #   --record  writes that file anew
 #   --micro   only times kernels, the line scan and small pictures
+#   --flicker only measures the flicker of five frames with exact, unstable and repaired maps, and compares the table
+#             with examples/lab/bench/flicker.txt; rendering the frames takes nine minutes of processor time
 . "$(dirname "$0")/../../../toolchains/steps.sh"
 
 check_counts() {
@@ -28,6 +30,17 @@ scene() {
   local folder=build/bench/$1
   shift
   [ -f "$folder/meta.txt" ] || lab "made the light field $folder" scene "$folder" "$@"
+}
+
+# flicker: compares the table of starfocus-lab flicker with the recorded table, whose figures are equal on all machines.
+flicker() {
+  local clip=build/bench/clip table=build/bench/flicker.txt recorded=examples/lab/bench/flicker.txt
+  ./do build starfocus_lab || exit 1
+  [ -f $clip/frame_0004/meta.txt ] || lab "made the frames $clip" scene $clip --size 640x480 --views 5 --frames 5 \
+    --unstable 1 --truth 4.9,0.4
+  $BUILD/starfocus-lab flicker $clip >$table || fail "measuring the flicker failed"
+  cat $table
+  diff $recorded $table || fail "the flicker changed; if the change is intended, copy $table to $recorded"
 }
 
 # speed: compares the engine with shift-and-add. Minima of 20 rounds hardly depend on other processes.
@@ -75,5 +88,6 @@ case "$*" in
   --record) check_counts record ;;
   --micro) micro ;;
   --speed) speed ;;
-  *) fail "./do bench: expected --quick, --speed, --check, --record, --micro or nothing, found '$*'" ;;
+  --flicker) flicker ;;
+  *) fail "./do bench: expected --quick, --speed, --check, --record, --micro, --flicker or nothing, found '$*'" ;;
 esac

@@ -6,11 +6,14 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "examples/command_line/options.h"
 #include "examples/command_line/program.h"
 #include "examples/lab/commands.h"
+#include "examples/scene/motion.h"
 #include "examples/scene/render.h"
 #include "platform/file.h"
 #include "platform/image_io.h"
@@ -28,9 +31,11 @@ namespace fs = std::filesystem;
 
 // Largest number of pixels per view. The limit is necessary because memory holds all views at once.
 constexpr int64_t kMostPixels = int64_t{1} << 25;
-constexpr int kMostSeed = 1000000;
+constexpr int kMostSeed = 1000000, kMostFrames = 10000;
 constexpr char kSceneNames[] = "portrait, wires, ramp, lamps, hair, grass or cutout";
 constexpr char kCoverageFile[] = "coverage.png", kMatteFile[] = "matte.png";
+// Exact map of a light field whose map is unstable.
+constexpr char kExactFile[] = "exact.pfm";
 
 struct Truth {
   SceneFocus focus;
@@ -43,7 +48,7 @@ struct SceneOptions {
   Positions views = StarPositions(17);
   starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB;
   int threads = 1;
-  std::optional<int> seed;
+  std::optional<int> seed, frames, unstable;
   std::vector<std::string> truths;
   ShapeOptions shape;
   bool hdr = false;
@@ -85,9 +90,9 @@ std::string TruthName(const Truth& truth, const ShapeOptions& shape, const char*
 }
 
 // Returns the name of the file that stores how much of each pixel the foreground covers, or an
-// empty string if the scene has no foreground.
-std::string AlphaFile(const Scene& scene) {
-  if (!scene.HasForeground()) return {};
+// empty string if the light field has no such file. Coverage would not match an unstable map.
+std::string AlphaFile(const SceneOptions& options, const Scene& scene) {
+  if (!scene.HasForeground() || (options.unstable && !scene.is_matte)) return {};
   return scene.is_matte ? kMatteFile : kCoverageFile;
 }
 
@@ -120,10 +125,16 @@ Result<Plan> MakePlan(const SceneOptions& options) {
   return plan;
 }
 
-// Rejects folders that contain the coverage or the matte of another scene, or old views that would
-// mix with the new views.
-Error CheckFolder(const SceneOptions& options, const Plan& plan) {
-  const std::string& folder = options.folder;
+// Returns the folder of a frame.
+std::string FrameFolder(const SceneOptions& options, int frame) {
+  char name[32];
+  std::snprintf(name, sizeof name, "frame_%04d", frame);
+  return (fs::path(options.folder) / name).string();
+}
+
+// Rejects folders that contain the coverage, the matte or the exact map of another scene, or old
+// views that would mix with the new views.
+Error CheckFolder(const SceneOptions& options, const Plan& plan, const std::string& folder) {
   const Positions& views = options.views;
   std::error_code failure;
   if (Error error = CheckFolderOutput({"DIR", folder})) return error;
@@ -136,38 +147,60 @@ Error CheckFolder(const SceneOptions& options, const Plan& plan) {
     if (IsViewFile(name) && !replaced) {
       return Expected(entry.path().string(), "no view of another light field", "one");
     }
-    if ((name == kCoverageFile || name == kMatteFile) && name != AlphaFile(plan.scene)) {
+    if ((name == kCoverageFile || name == kMatteFile) && name != AlphaFile(options, plan.scene)) {
       return Expected(entry.path().string(), "no coverage of another scene", "one");
+    }
+    if (name == kExactFile && !options.unstable) {
+      return Expected(entry.path().string(), "no exact map of another scene", "one");
     }
   }
   return {};
 }
 
-std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTracer& renderer,
-                     const FloatMap& disparity) {
-  std::string text = "scene: " + plan.scene.name + ", " + plan.scene.description + "\n";
+// Rejects folders whose views or frames would mix with the new frames.
+Error CheckFrames(const SceneOptions& options, const Plan& plan) {
+  std::error_code failure;
+  if (Error error = CheckFolderOutput({"DIR", options.folder})) return error;
+  std::set<std::string> frames;
+  for (int frame = 0; frame < *options.frames; ++frame) {
+    frames.insert(fs::path(FrameFolder(options, frame)).filename().string());
+    if (Error error = CheckFolder(options, plan, FrameFolder(options, frame))) return error;
+  }
+  for (const auto& entry : fs::directory_iterator(options.folder, failure)) {
+    const std::string name = entry.path().filename().string();
+    if (IsViewFile(name) || (name.rfind("frame_", 0) == 0 && frames.count(name) == 0)) {
+      return Expected(entry.path().string(), "no view or frame of another light field", "one");
+    }
+  }
+  return {};
+}
+
+std::string MetaText(const SceneOptions& options, const Plan& plan, const Scene& scene,
+                     const RayTracer& renderer, const FloatMap& exact) {
+  std::string text = "scene: " + scene.name + ", " + scene.description + "\n";
   text += "size: " + SizeText(options.size.x, options.size.y) + "\n";
   text += "views: " + std::to_string(options.views.size()) + "\n";
   text += std::string("transfer: ") +
           (options.transfer == STARFOCUS_TRANSFER_NONE ? "none" : "srgb") + "\n";
-  for (const NamedPoint& point : plan.scene.points) {
+  for (const NamedPoint& point : scene.points) {
     int x, y;
     renderer.ToPixel(point.x, point.y, &x, &y);
     text += std::string(point.name) + ": " + std::to_string(x) + "," + std::to_string(y) +
-            " disparity " + Short(disparity.at(x, y)) + "\n";
+            " disparity " + Short(exact.at(x, y)) + "\n";
   }
-  if (plan.scene.seeded) {
+  if (scene.seeded) {
     text += "seed: " + std::to_string(options.seed.value_or(kSceneSeed)) + "\n";
   }
-  if (plan.scene.HasForeground()) {
+  if (const std::string alpha = AlphaFile(options, scene); !alpha.empty()) {
     text +=
-        AlphaFile(plan.scene) +
+        alpha +
         ": share of each pixel of the centre view that the foreground covers, of 256 rays; 255 is "
         "all of it\n";
   }
+  text += "made by: starfocus-lab scene; ";
+  text += options.unstable ? kExactFile : "disparity.pfm";
   text +=
-      "made by: starfocus-lab scene; disparity.pfm is exact at pixel centres, in pixels per unit "
-      "u\n"
+      " is exact at pixel centres, in pixels per unit u\n"
       "convention: centre pixel (x, y) appears in view (u, v) at (x - u*d, y - v*d)\n"
       "truth_dt<D>_ut<U>" +
       ShapeSuffix(options.shape) + Extension(options) + ": thin-lens ground truth, " +
@@ -179,15 +212,15 @@ std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTra
 }
 
 struct Pictures {
-  LightField light_field;
-  GreyImage matte;  // no levels: the scene has no matte
+  LightField light_field;  // with the exact map
+  GreyImage matte;         // no levels: the scene has no matte
   std::vector<Image> truths;
   std::vector<DeepImage> hdr_truths;  // with --hdr, in place of `truths`
 };
 
 Pictures Render(const SceneOptions& options, const Plan& plan, const RayTracer& renderer) {
   const SceneOpening opening(plan.lens);
-  const bool covers = plan.scene.HasForeground();
+  const bool covers = !AlphaFile(options, plan.scene).empty();
   const int64_t costs = int64_t(options.views.size()) + (covers ? RayTracer::kCoverageCost : 0) +
                         RayTracer::kTruthCost * int64_t(plan.truths.size());
   Progress progress("rendering", options.size.y * costs);
@@ -206,38 +239,63 @@ Pictures Render(const SceneOptions& options, const Plan& plan, const RayTracer& 
     alpha.clear();
   }
   for (const Truth& truth : plan.truths) {
-    const SceneLight light =
-        renderer.TruthLight(truth.focus, truth.aperture, opening,
-                            options.hdr ? kHdrLensSamples : kLensSamples, &progress);
+    const SceneLight light = renderer.TruthLight(
+        truth.focus, truth.aperture, opening,
+        options.hdr || options.frames ? kFineLensSamples : kLensSamples, &progress);
     if (options.hdr) pictures.hdr_truths.push_back(renderer.Halves(light));
     if (!options.hdr) pictures.truths.push_back(renderer.Encoded(light));
   }
   return pictures;
 }
 
-Error Run(const SceneOptions& options) {
-  const Result<Plan> made = MakePlan(options);
-  if (!made) return made.error();
-  const Plan& plan = *made;
-  if (Error error = CheckFolder(options, plan)) return error;
-  ThreadRunner runner(options.threads);
-  const RayTracer renderer(plan.scene, options.size.x, options.size.y, options.transfer, &runner);
-  const Pictures pictures = Render(options, plan, renderer);
-  Error error = SaveLightField(options.folder, pictures.light_field, &runner);
+// Writes the light field, and the exact map if the map of the light field is unstable.
+Error SaveMaps(const SceneOptions& options, const std::string& folder, int frame,
+               ThreadRunner* runner, LightField* light_field) {
+  if (!options.unstable) return SaveLightField(folder, *light_field, runner);
+  FloatMap* map = &light_field->disparity;
+  FloatMap unstable = UnstableMap(*map, uint32_t(*options.unstable), frame);
+  std::swap(*map, unstable);
+  Error error = SaveLightField(folder, *light_field, runner);
+  std::swap(*map, unstable);
+  return error ? error : WritePfm((fs::path(folder) / kExactFile).string(), *map);
+}
+
+Error RenderFrame(const SceneOptions& options, const Plan& plan, const std::string& folder,
+                  int frame, ThreadRunner* runner) {
+  const Scene scene = options.frames ? SceneAt(plan.scene, frame) : plan.scene;
+  const RayTracer renderer(scene, options.size.x, options.size.y, options.transfer, runner);
+  Pictures pictures = Render(options, plan, renderer);
+  Error error = SaveMaps(options, folder, frame, runner, &pictures.light_field);
   if (!error && !pictures.matte.levels.empty()) {
-    const std::string path = (fs::path(options.folder) / kMatteFile).string();
+    const std::string path = (fs::path(folder) / kMatteFile).string();
     error = WriteFile(path, EncodeGreyPng(path, pictures.matte));
   }
   for (size_t i = 0; i < plan.truths.size() && !error; ++i) {
     const std::string name = TruthName(plan.truths[i], options.shape, Extension(options));
-    const std::string path = (fs::path(options.folder) / name).string();
+    const std::string path = (fs::path(folder) / name).string();
     std::vector<std::string> notes;
     error = options.hdr ? WriteDeepImage(path, pictures.hdr_truths[i], {}, &notes)
                         : WriteImage(path, pictures.truths[i]);
   }
   if (error) return error;
-  const std::string meta = MetaText(options, plan, renderer, pictures.light_field.disparity);
-  return WriteText((fs::path(options.folder) / "meta.txt").string(), meta);
+  const std::string meta = MetaText(options, plan, scene, renderer, pictures.light_field.disparity);
+  return WriteText((fs::path(folder) / "meta.txt").string(), meta);
+}
+
+Error Run(const SceneOptions& options) {
+  const Result<Plan> plan = MakePlan(options);
+  if (!plan) return plan.error();
+  ThreadRunner runner(options.threads);
+  if (!options.frames) {
+    if (Error error = CheckFolder(options, *plan, options.folder)) return error;
+    return RenderFrame(options, *plan, options.folder, 0, &runner);
+  }
+  if (Error error = CheckFrames(options, *plan)) return error;
+  for (int frame = 0; frame < *options.frames; ++frame) {
+    const std::string folder = FrameFolder(options, frame);
+    if (Error error = RenderFrame(options, *plan, folder, frame, &runner)) return error;
+  }
+  return {};
 }
 
 }  // namespace
@@ -248,8 +306,8 @@ Command SceneCommand() {
                      "Ray-trace a light field with exact disparities into a folder",
                      {},
                      [options] { return Run(*options); },
-                     {"starfocus-lab scene lf --name portrait --size 640x480",
-                      "starfocus-lab scene lf --views 5 --truth 4,1 --shape disc"}};
+                     {"starfocus-lab scene lf --views 5 --truth 4,1 --shape disc",
+                      "starfocus-lab scene clip --views 5 --frames 8 --unstable 1"}};
   AddOptions(
       {
           {"DIR", "DIR", "Light-field folder to write", &options->folder, Use::kRequired},
@@ -259,6 +317,16 @@ Command SceneCommand() {
            "Seed for the positions of the strands of hair, grass and cutout, 0 to 1000000; "
            "default: 1",
            Whole(0, kMostSeed, &options->seed)},
+          {"--frames", "N",
+           "Render N frames, 1 to 10000, in which camera and foreground move, into the folders "
+           "DIR/frame_0000, DIR/frame_0001 and so on; default: one light field without motion in "
+           "DIR",
+           Whole(1, kMostFrames, &options->frames)},
+          {"--unstable", "SEED",
+           "Write maps with errors that change from frame to frame, and the exact maps as "
+           "exact.pfm: outlines that grow or shrink by up to 2 pixels, smooth noise of up to 0.5, "
+           "and an offset of up to 0.3; the seed is 0 to 1000000; default: exact maps",
+           Whole(0, kMostSeed, &options->unstable)},
           {"--size", "WxH",
            "Width and height of each view in pixels, at most 33554432 pixels in total",
            Pair('x', &options->size), Use::kDefault},

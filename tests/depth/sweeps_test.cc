@@ -12,7 +12,7 @@
 #include "tests/depth/depth_scene.h"
 #include "tests/support/config.h"
 
-namespace sweeps_bytes_test {
+namespace sweeps_test {
 namespace {
 
 using namespace test;
@@ -302,4 +302,4 @@ TEST_CASE("sweeps: a repair keeps strands, and opens the gaps that the map has c
 }
 
 }  // namespace
-}  // namespace sweeps_bytes_test
+}  // namespace sweeps_test
