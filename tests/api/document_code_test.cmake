@@ -12,6 +12,7 @@ set(of_library [[
 #include <starfocus/experimental.h>
 #include <starfocus/matte.h>
 #include <starfocus/pool.h>
+#include <starfocus/video.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 static starfocus_config config;
@@ -30,6 +31,7 @@ static double focal_length, baseline;
 static void* my_arena;
 void* take(void* arena, size_t bytes, size_t alignment);
 void give_back(void* arena, void* memory, size_t bytes);
+int next_frame(starfocus_light_field* frame);
 struct task { float share; atomic_int cancelled; };
 ]])
 set(of_library_cpp [[

@@ -130,14 +130,13 @@ size_t WorkspaceKilobytes(const starfocus_config& config) {
   return (bytes + 1023) / 1024;
 }
 
-// Prints a row for each picture, star set and feature, and a column for each block size and blur
-// radius.
+// Prints a row for each picture and star set, and a column for each block size and blur radius.
 void PrintWorkspace() {
   constexpr struct {
     const char* name;
     int width, height;
   } kSizes[] = {{"VGA", 640, 480}, {"HD", 1280, 720}, {"Full HD", 1920, 1080}};
-  constexpr int kBlocks[] = {32, 64, 128, 256}, kBlurs[] = {8, 32, 128};
+  constexpr int kBlocks[] = {32, 64, 128}, kBlurs[] = {8, 32, 128};
   const auto row = [&](const char* name, const char* input, test::Config config) {
     std::printf("| %s | %s |", name, input);
     for (const int block : kBlocks) {
@@ -157,12 +156,8 @@ void PrintWorkspace() {
   for (size_t i = 0; i < sizeof(kBlocks) / sizeof(int) * 3; ++i) std::printf("--:|");
   std::printf("\n");
   for (const auto& size : kSizes) {
-    test::Config config = test::BoardConfig(size.width, size.height, 17, 32, 8, 0);
-    row(size.name, "whole pictures", config);
-    config.features = 0;
-    config.tuning.line_scan = nullptr;
-    row(size.name, "whole pictures, no line scan", config);
-    for (const int views : {1, 5, 9, 17}) {
+    row(size.name, "whole pictures", test::BoardConfig(size.width, size.height, 17, 32, 8, 0));
+    for (const int views : {1, 5, 17}) {
       char input[40];
       std::snprintf(input, sizeof(input), "%d streamed view%s", views, views == 1 ? "" : "s");
       row(size.name, input, test::BoardConfig(size.width, size.height, views, 32, 8, 1));
@@ -180,14 +175,7 @@ class PartsTable {
     } kColumns[] = {
         {"VGA, 1 streamed view, 32, 8", test::BoardConfig(640, 480, 1, 32, 8, 1)},
         {"VGA, 5 streamed views, 64, 32", test::BoardConfig(640, 480, 5, 64, 32, 1)},
-        {"Full HD, whole pictures, 64, 32", test::BoardConfig(1920, 1080, 17, 64, 32, 0)},
-        {"Full HD, whole pictures, 128, 128", test::BoardConfig(1920, 1080, 17, 128, 128, 0)},
-        {"Full HD, whole pictures, 128, 128, no line scan", [] {
-           test::Config config = test::BoardConfig(1920, 1080, 17, 128, 128, 0);
-           config.features = 0;
-           config.tuning.line_scan = nullptr;
-           return config;
-         }()}};
+        {"Full HD, whole pictures, 128, 128", test::BoardConfig(1920, 1080, 17, 128, 128, 0)}};
     std::printf("| |");
     for (const auto& column : kColumns) {
       std::printf(" %s |", column.name);
