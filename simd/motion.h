@@ -57,10 +57,11 @@ STARFOCUS_REFERENCE void LimitBlock(const uint8_t* rgb, size_t stride, uint16_t 
   }
 }
 
-// Compares a block with one motion. The colour difference of a pixel is the sum over R, G and B of
-// the pixel and its eight neighbours. Where it is at most `limits`, and less than costs[] if the
-// difference of disparities, at most kMostStep, is added, sets the cost and choices[] = choice.
-// Elements are those of LimitBlock.
+// Compares a block with the block to which one motion leads. The colour difference of a pixel is
+// summed over R, G and B of the pixel and its eight neighbours. Its cost is the colour difference
+// plus the difference of disparities, which is limited to kMostStep. If the colour difference of
+// pixel (x, y) is at most limits[8 y + x] and its cost is less than costs[8 y + x], sets this
+// element of `costs` to the cost, and that of `choices` to `choice`.
 STARFOCUS_REFERENCE void FollowBlock(const FollowedBlock& block, const uint16_t* limits,
                                      uint16_t choice, uint16_t* costs, uint16_t* choices) {
   for (size_t y = 0; y < kFollowed; ++y) {

@@ -14,8 +14,9 @@
 
 namespace starfocus::simd {
 
-// What one is added to in the scales between words and codes, 16 fractional bits: 65535 is
-// 255 * 256 words of limited range before their matrix, or 1023 * 64 of full range.
+// Returns by how much the scale from words to codes, or from codes to words, exceeds 1, with 16
+// fractional bits. Code 65535 is word 255 * 256 of limited range, before its matrix, or word
+// 1023 * 64 of full range.
 constexpr int32_t MoreOfWords(const YuvMatrix& m) { return m.black == 0 ? 63 : 256; }
 constexpr int32_t MoreOfCodes(const YuvMatrix& m) { return m.black == 0 ? -63 : -255; }
 

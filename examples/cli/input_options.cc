@@ -128,10 +128,9 @@ void AddInputOptions(Command* command, InputOptions* options, std::vector<std::s
                        "depth photos; - reads a photo from standard input",
                        several, Use::kRequired},
           {"--depth", "FILE",
-           "Depth picture of the photo (PNG, PGM, PPM, JPEG, WebP, PFM, TIFF, NPY or NPZ); "
-           "default: "
-           "the map in the photo, or the file NAME-depth, NAME_depth or NAME.depth in the "
-           "folder of the photo",
+           "Depth picture of the photo (PNG, PGM, PPM, JPEG, WebP, PFM, TIFF, OpenEXR, NPY or "
+           "NPZ); default: the map in the photo, or the file NAME-depth, NAME_depth or NAME.depth "
+           "in the folder of the photo",
            &options->depth},
           {"--depth-command", "CMD",
            "Shell command that estimates the depth of a photo without depth: it reads the "

@@ -80,7 +80,7 @@ void CheckFrame(const FullConfig& config, const starfocus_light_field& frame,
 uint32_t ReadFrame(const starfocus_light_field& frame, Stabiliser* s) {
   const FullConfig& config = s->config;
   const simd::ImageKernels& kernels = simd::BestImageKernels();
-  const StableFrame& now = s->frames[1 - s->current];
+  StableFrame& now = s->frames[1 - s->current];
   FillColumns(config.width, frame.depth.width, 0, config.width, s->columns);
   const simd::DepthRule rule = RuleOf(frame.depth, MinDisparity(config), MaxDisparity(config));
   const DepthSource source = {frame.depth, rule, config.width, config.height, s->columns};
@@ -93,7 +93,7 @@ uint32_t ReadFrame(const starfocus_light_field& frame, Stabiliser* s) {
                 static_cast<size_t>(config.width));
   }
   PadColours(config, now.rgb);
-  s->has_coverage = frame.coverage != nullptr;
+  now.has_coverage = frame.coverage != nullptr;
   return flags;
 }
 
@@ -116,10 +116,10 @@ void WriteMap(const Stabiliser& s, starfocus_disparity_output* map) {
       const int share = count[x] < 2 ? 0 : 255 * count[x] / (count[x] + others[x]);
       map->confidence[row * map->confidence_stride + x] = static_cast<uint8_t>(share);
     }
-    if (map->coverage == nullptr || !s.has_coverage) continue;
+    if (map->coverage == nullptr || !now.has_coverage) continue;
     std::memcpy(map->coverage + row * map->coverage_stride, now.coverage.Row(y), width);
   }
-  map->has_coverage = map->coverage != nullptr && s.has_coverage ? 1 : 0;
+  map->has_coverage = map->coverage != nullptr && now.has_coverage ? 1 : 0;
 }
 
 // Starts an API call that follows a subject.

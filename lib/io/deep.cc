@@ -65,20 +65,22 @@ constexpr bool IsHalf(int32_t format) {
 // Returns the word of alpha 1.
 constexpr uint16_t OpaqueWord(int32_t format) { return IsHalf(format) ? 0x3C00 : 65535; }
 
-// Four words in a number, of any order of bytes. The last is that of alpha.
+// Returns four words as one number, in the byte order of the machine.
 uint64_t FourWords(const uint16_t* words) {
   uint64_t four;
   std::memcpy(&four, words, sizeof four);
   return four;
 }
+// Returns the four words of a pixel of one grey.
 uint64_t Lanes(uint16_t colours, uint16_t alpha) {
   const uint16_t words[4] = {colours, colours, colours, alpha};
   return FourWords(words);
 }
 
-// The sign bits of four words. NotAbove sets that of a word if a <= b, for words without sign, and
-// clears it if b has no sign, but a has one.
+// Highest bits of four words.
 constexpr uint64_t kSigns = 0x8000800080008000;
+// Compares four words with four others. Sets the highest bit of a word of the result if a <= b, for
+// words below 0x8000, and clears this bit if a is 0x8000 or more.
 constexpr uint64_t NotAbove(uint64_t a, uint64_t b) { return ((b | kSigns) - (a & ~kSigns)) & ~a; }
 
 // Returns the AND of of(four words) over `count` >= 4 words.
@@ -132,7 +134,7 @@ void ReadByteCodes(const ImageSource& image, int32_t x, int32_t y, int32_t count
   for (int32_t n = 0; n < 3 * count; ++n) rgb[n] = static_cast<uint16_t>(257 * bytes[n]);
 }
 
-// Multiplies the light of a pixel with its alpha.
+// Multiplies the light of a pixel by its alpha.
 void Premultiply(int32_t alpha, uint16_t* rgb) {
   for (int c = 0; c < 3; ++c) {
     const int64_t light = int64_t{LightOfDeep(rgb[c])} * alpha;
@@ -140,7 +142,8 @@ void Premultiply(int32_t alpha, uint16_t* rgb) {
   }
 }
 
-// Reads pixels of R, G and B of 16 bits or half floats, whose `alpha` is opaque before.
+// Reads pixels of R, G and B of 16 bits or half floats. Writes only those values of `alpha` that
+// are not opaque: the caller has set all to opaque.
 void ReadWords(const DeepTables& tables, const ImageSource& image, int32_t x, int32_t y,
                int32_t count, uint16_t* rgb, uint16_t* alpha) {
   const bool is_half = IsHalf(image.format);

@@ -34,7 +34,7 @@ constexpr uint16_t DeepOfLight(int64_t light) {
   return static_cast<uint16_t>(kLightWhite + (excess < kMostExcess ? excess : kMostExcess));
 }
 
-// A deep pixel without alpha.
+// Returns true if a channel of a deep pixel is beyond white.
 inline bool IsBeyondWhite(const uint16_t* rgb) {
   return Max(Max(rgb[0], rgb[1]), rgb[2]) > kLightWhite;
 }
@@ -68,8 +68,9 @@ struct DeepRow {
 void WriteDeep(const DeepTables& tables, const DeepRow& row, int32_t width, int32_t y,
                const ImageTarget& image);
 
-// Writes rows y and y + 1 of an image of a deep YUV format: the luma of those in `luma`, and their
-// chroma. rows[1] is rows[0] if row y has chroma of its own, and null if no chroma is written.
+// Writes to an image of a deep YUV format. rows[0] and rows[1] are rows y and y + 1 of the picture,
+// of which the rows in `luma` get luma. Row y of an image gets the chroma of the mean of both rows;
+// rows[1] is rows[0] if each row has its own chroma, and null if no chroma is written.
 void WriteDeepYuv(const DeepTables& tables, const uint16_t* const rows[2], const Range& luma,
                   int32_t width, int32_t y, const ImageTarget& image);
 

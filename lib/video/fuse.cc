@@ -7,16 +7,17 @@
 namespace starfocus {
 namespace {
 
-// Measurements that count for a mean: more would hide that a surface comes nearer.
+// Largest number of measurements of a mean. With more, the mean would lag behind a surface that
+// comes nearer.
 constexpr int32_t kMostCount = 8;
-// Measurements after which another surface takes over at the latest.
+// Another surface replaces the surface of a pixel if it has more measurements, or more than this.
 constexpr int32_t kMostVotes = 4;
-// Frames that count for the mean of coverage.
+// Largest number of frames of the mean of coverage.
 constexpr int32_t kMostCovers = 3;
-// Largest distance in pixels of wrong pixels of a map from its outlines.
+// Largest distance of wrong pixels of a map from its outlines, in pixels.
 constexpr int32_t kOutline = 3;
-// Pixels of a square of this reach decide together whether they keep their surfaces, so that
-// outlines stay smooth.
+// Pixels within this distance of each other decide together whether they keep their surfaces, so
+// that outlines stay smooth.
 constexpr int32_t kTogether = 3;
 
 // Returns value / count, rounded to the nearest, for |value| < 2^15 and 1 <= count <= kMostCount
@@ -28,7 +29,7 @@ int32_t Rounded(int32_t value, int32_t count) {
   return (value * kInverses[count] + (1 << 15)) >> 16;
 }
 
-// Returns true if the map shows a surface near pixel (x, y).
+// Returns true if the map shows a surface within kOutline of pixel (x, y).
 bool IsBeside(const Fusion& f, int32_t x, int32_t y, int32_t surface) {
   return AnyPixel(Clipped(Around(x, y, kOutline), f.width, f.height), [&](int32_t ax, int32_t ay) {
     const int32_t given = f.given.Row(ay)[ax];
@@ -65,8 +66,8 @@ bool KeepsSurface(const Fusion& f, int32_t x, int32_t y) {
 struct Pixel {
   int32_t own, second, count, others;
 
-  // Adds a measurement on the known surface. The mean stays within half the tolerance of it,
-  // because surfaces come nearer.
+  // Adds a measurement on the surface. The mean stays within half the tolerance of it, because
+  // surfaces may come nearer.
   void Add(int32_t measured, int32_t tolerance) {
     own += Rounded(measured - own, count + 1);
     own = Clamp(own, measured - tolerance / 2, measured + tolerance / 2);
@@ -110,7 +111,7 @@ void RelateRows(const Fusion& f, const Range& rows) {
 
 namespace {
 
-// Fuses a pixel whose measurement is on another surface, or of which nothing is known.
+// Fuses a pixel whose measurement is on another surface, or which has no surface yet.
 Pixel Replaced(const Fusion& f, int32_t x, int32_t y, bool* keeps) {
   const int32_t given = f.given.Row(y)[x], measured = Drifted(f.of_map, given);
   const int32_t count = f.count.Row(y)[x];

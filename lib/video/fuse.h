@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuses the map of a frame with what is known of its pixels from the frames before.
+// Fuses the map of a frame with the surfaces of its pixels in the frames before.
 //
 // Each pixel has a surface, which is the mean of the disparities that were measured on it, and the
 // number of these measurements. A measurement on another surface does not change the disparity at
@@ -29,27 +29,27 @@ inline int32_t Drifted(const Drift& drift, int32_t disparity) {
          ((drift.scale * disparity + (1 << (kDriftBits - 1))) >> kDriftBits);
 }
 
-// How a measurement relates to what is known of its pixel.
+// Relation of a measurement to the surface of its pixel.
 enum class Relation : uint8_t {
-  kNew,      // nothing is known
-  kSame,     // the measurement is on the known surface, or missing
-  kKept,     // the measurement is on another surface, but too rarely so
-  kReplaced  // the other surface takes over
+  kNew,      // the pixel has no surface yet
+  kSame,     // the measurement is on the surface, or missing
+  kKept,     // the measurement is on another surface, which has too few of them
+  kReplaced  // the other surface replaces the surface
 };
 
-// What is fused: planes of one frame. Disparities have kDisparityBits fractional bits.
+// Planes of a frame to fuse. Disparities have kDisparityBits fractional bits.
 struct Fusion {
   int32_t width, height;
   // Largest difference between disparities of one surface.
   int32_t tolerance;
-  Drift of_map, of_before;  // changes of the map and of what is known to their mean scale
+  Drift of_map, of_before;  // from the map, and from the frame before, to their mean scale
   Plane<int16_t> given;     // measurements, kNoSurface: unknown
-  // What is known, which FuseRows replaces by what is known after the frame: the surface, another
-  // surface, and the numbers of their measurements. A count of 0 means that nothing is known.
+  // Disparities of the surface and of another surface of each pixel, and the numbers of their
+  // measurements; a count of 0: no surface. FuseRows changes them from the frame before to this one.
   Plane<int16_t> disparity, other;
   Plane<uint8_t> count, others;
   Plane<uint8_t> relations;  // elements are Relation
-  // Coverage of the map and what is known of it; null: none.
+  // Coverage of the frame, and mean coverage, which FuseRows changes; null: none.
   Plane<uint8_t> given_coverage, coverage;
 };
 

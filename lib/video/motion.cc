@@ -11,8 +11,9 @@ namespace {
 // Rows of a job.
 constexpr int32_t kBand = 32;
 
-// Sum of differences by which a motion must be better than the first candidate, that of the coarse
-// block: flat blocks follow their neighbours.
+// A motion replaces the first candidate, which is that of the coarse block, if its sum of
+// differences is smaller by more than this. Flat blocks therefore keep the motion of the coarse
+// block.
 constexpr int32_t kMotionPenalty = 128;
 
 // Largest motion at the coarsest level, pixels of this level.
@@ -49,7 +50,8 @@ struct Matcher {
   }
 };
 
-// Returns the best of `count` candidates and of the motions up to `search` pixels beside it.
+// Returns the best motion of `count` candidates and of all motions within `search` pixels of the
+// best candidate.
 Motion BestMotion(const Matcher& matcher, const Motion* candidates, int32_t count, int32_t search) {
   Motion best = candidates[0];
   int64_t least = matcher.Difference(best) - kMotionPenalty;

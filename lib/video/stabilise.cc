@@ -10,11 +10,12 @@
 namespace starfocus {
 namespace {
 
-// Frames that count for the mean scale of maps.
+// Largest number of frames of the mean scale of maps.
 constexpr int32_t kMostLength = 8;
 
 // Colour difference of a pixel and its eight neighbours, summed over R, G and B, up to which the
-// pixel follows a motion; more where the picture has contrast, because motions are whole pixels.
+// pixel follows a motion: 9 codes on average. More where the picture has contrast, because motions
+// are whole pixels.
 constexpr uint16_t kMostColour = 27 * 9;
 
 // Motions that the pixels of a block may follow: those of the block and of its neighbours.
@@ -38,7 +39,8 @@ struct Candidates {
 constexpr auto kBlock = static_cast<int32_t>(simd::kFollowed);
 static_assert(kBlock == kMotionBlock);
 
-// Copies what is known of the pixels of `block` that have a cost. Returns their number.
+// Copies the surfaces of those pixels of `block` that have a cost, from the frame before. Returns
+// their number.
 int32_t CopyBlock(const Stabiliser& s, const Rect& block, const Motion* motions,
                   const uint16_t* costs, const uint16_t* choices) {
   const StableFrame &before = s.frames[s.current], &now = s.frames[1 - s.current];
@@ -60,14 +62,15 @@ int32_t CopyBlock(const Stabiliser& s, const Rect& block, const Motion* motions,
       now.other.data[at] = before.other.data[from];
       now.others.data[at] = before.others.data[from];
       *At(now.disparity, x, y) = *At(before.disparity, from_x, from_y);
-      if (s.has_coverage) now.coverage.data[at] = before.coverage.data[from];
+      if (!now.has_coverage) continue;
+      now.coverage.data[at] = before.has_coverage ? before.coverage.data[from] : s.coverage.data[at];
     }
   }
   return followed;
 }
 
-// Follows the pixels of a block to the frame before, and copies what is known of them. Returns the
-// number of pixels that continue.
+// Finds the pixels of a block in the frame before, and copies their surfaces. Returns the number of
+// pixels that were found.
 int32_t FollowBlock(const Stabiliser& s, int32_t column, int32_t row) {
   const StableFrame &before = s.frames[s.current], &now = s.frames[1 - s.current];
   const int32_t x0 = column * kBlock, y0 = row * kBlock;
@@ -123,7 +126,7 @@ Drift FitDrift(const DriftSums& s) {
   return {static_cast<int32_t>(scale * (1 << kDriftBits)), static_cast<int32_t>(offset)};
 }
 
-// Takes a plane of whole blocks with a border, which blocks beside the picture read.
+// Takes memory of a plane of whole blocks, with a border for motions that lead out of the picture.
 template <class T>
 Plane<T> TakePadded(const FullConfig& config, int32_t samples, Arena* arena) {
   constexpr int32_t kBorder = kBlock + 1;
@@ -249,7 +252,7 @@ starfocus_status FollowFrame(const Stabiliser& s, int64_t* followed) {
 // Fuses the next frame. Adds the pixels that keep their surface to *kept.
 starfocus_status FuseFrame(const Stabiliser& s, int32_t length, const Drift& drift, int64_t* kept) {
   const StableFrame& now = s.frames[1 - s.current];
-  // The mean scale of all maps since the start is kept, so what is known changes, too.
+  // The mean scale is that of all maps since the start, so that of the frame before changes, too.
   const int32_t parts = length + 1;
   const Fusion fusion = {s.config.width,
                          s.config.height,
@@ -263,7 +266,7 @@ starfocus_status FuseFrame(const Stabiliser& s, int32_t length, const Drift& dri
                          now.others,
                          s.relations,
                          s.coverage,
-                         s.has_coverage ? now.coverage : Plane<uint8_t>()};
+                         now.has_coverage ? now.coverage : Plane<uint8_t>()};
   const auto rows_of = [&](int32_t row) {
     return Range{row * kMotionBlock, Min((row + 1) * kMotionBlock, s.config.height)};
   };

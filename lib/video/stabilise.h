@@ -17,13 +17,14 @@
 
 namespace starfocus {
 
-// What is known of the pixels of a frame. Disparities have kDisparityBits fractional bits.
+// A frame, and the surfaces of its pixels. Disparities have kDisparityBits fractional bits.
 struct StableFrame {
   Plane<uint8_t> rgb;
   LumaPyramid luma;
   Plane<int16_t> disparity, other;  // of the surface, and of the other surface
   Plane<uint8_t> count, others;     // measurements of both; `count` 0: the pixel is new
-  Plane<uint8_t> coverage;
+  Plane<uint8_t> coverage;          // valid if has_coverage is true
+  bool has_coverage;
 };
 
 // Sums of a band of rows, for the change of all disparities since the frame before.
@@ -32,8 +33,8 @@ struct DriftSums {
 };
 
 struct StabiliserReport {
-  int64_t followed, kept;  // Pixels that continue a pixel of the frame before; with its surface.
-  bool is_cut;             // No surface continues.
+  int64_t followed, kept;  // Pixels found in the frame before; those that keep their surface.
+  bool is_cut;             // Too few pixels were found, so all surfaces start with this frame.
   Drift drift;
 };
 
@@ -46,15 +47,14 @@ struct Stabiliser {
   // Largest difference between disparities of one surface (kDisparityBits): at least a pixel, and
   // more in maps of a large range.
   int32_t tolerance;
-  int32_t length;           // number of frames since the start or the last cut, limited
+  int32_t length;           // number of frames since the start or the last cut, at most kMostLength
   Plane<int16_t> given;     // disparities of the map of the next frame, kNoSurface: unknown
-  Plane<uint8_t> coverage;  // its coverage, if has_coverage is true
-  Plane<uint8_t> relations;
+  Plane<uint8_t> coverage;  // its coverage, if its frame has coverage
+  Plane<uint8_t> relations;  // see Fusion::relations
   uint32_t* columns;  // see DepthSource::columns
   MotionField motion[kMotionLevels];
   DriftSums* sums;        // of each row of blocks
   int64_t* sums_of_rows;  // of pixels
-  bool has_coverage;
 };
 
 // Returns the address of sample x of row y of a plane with a border, which may lie in the border.

@@ -16,7 +16,8 @@ constexpr int32_t kBlocksAround = 3, kPixelsAround = 8;
 // The patch is searched this far around the place to which the motion leads, and around the last
 // place while the subject is lost.
 constexpr int32_t kSearch = 3, kSearchLost = 12;
-// Largest mean difference of the patch, in codes. A subject is found again up to half of it.
+// Largest difference of the patch: 24 codes on average. A lost subject is found again up to half of
+// it.
 constexpr int64_t kMostDifference = 24 * kSide * kSide;
 
 const StableFrame& Now(const Stabiliser& s) { return s.frames[s.current]; }
@@ -84,8 +85,8 @@ Motion BestPlace(const Stabiliser& s, const starfocus_track& track, int32_t x, i
   return best;
 }
 
-// Finds the median disparity around a point of those within `tolerance` of *focus. Returns the
-// number of pixels that have one.
+// Sets *focus to the median of the known disparities around a point that are within `tolerance` of
+// it. Returns their number.
 int32_t FindFocus(const Stabiliser& s, int32_t x, int32_t y, int32_t tolerance, double* focus) {
   int16_t values[(2 * kPixelsAround + 1) * (2 * kPixelsAround + 1)];
   int32_t count = 0;
@@ -109,7 +110,8 @@ void BeginTrack(const Stabiliser& s, int32_t x, int32_t y, starfocus_track* trac
   track->y = y;
   track->lost = 0;
   track->focus = static_cast<double>(Now(s).disparity.Row(y)[x]) / (1 << kDisparityBits);
-  FindFocus(s, x, y, s.tolerance, &track->focus);
+  const bool is_known = Now(s).count.Row(y)[x] > 0;
+  FindFocus(s, x, y, is_known ? s.tolerance : INT16_MAX - INT16_MIN, &track->focus);
   CopySquare(SquareAt(s, x, y), Now(s).luma.level[0].luma.stride, track->patch);
 }
 

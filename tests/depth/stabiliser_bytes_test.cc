@@ -231,6 +231,16 @@ TEST_CASE("stabiliser: coverage is averaged where a surface continues") {
   }
 }
 
+TEST_CASE("stabiliser: coverage is not averaged with that of a frame without coverage") {
+  const World world;
+  Video video(world.width, world.height);
+  Frame frame = world.Make(0);
+  video.Next(frame);
+  frame.coverage.assign(frame.map.size(), 200);
+  video.Next(frame);
+  CHECK(video.coverage == frame.coverage);
+}
+
 TEST_CASE("stabiliser: bytes do not depend on workers, memory or failed calls") {
   const World world;
   test::Random random(8);
@@ -283,6 +293,14 @@ TEST_CASE("tracking: the focus follows a subject until it leaves, and finds it a
   video.Next(world.Make(0));
   REQUIRE(starfocus_track_begin(video.stabiliser, 50, 45, &track) == STARFOCUS_OK);
   CHECK(track.focus == kNear);
+  // A tap on an unknown pixel focuses on what is known around it.
+  Frame unknown = world.Make(0);
+  unknown.map[unknown.At(50, 45)] = std::numeric_limits<float>::quiet_NaN();
+  Video other(world.width, world.height);
+  other.Next(unknown);
+  starfocus_track tapped = {};
+  REQUIRE(starfocus_track_begin(other.stabiliser, 50, 45, &tapped) == STARFOCUS_OK);
+  CHECK(tapped.focus == kNear);
   for (int k = 1; k < 20; ++k) {
     video.Next(world.Make(k));
     REQUIRE(starfocus_track_focus(video.stabiliser, &track) == STARFOCUS_OK);

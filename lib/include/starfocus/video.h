@@ -5,8 +5,9 @@
  *
  * The maps of networks and sensors change from frame to frame where the scene does not, and the
  * blur changes with them. A stabiliser follows the motion of the picture and fuses the map of each
- * frame with those before it. It adds no delay: the map of a frame depends on this frame and the
- * frames before.
+ * frame with the maps of the frames before it. It adds no delay: the map of a frame depends on this
+ * frame and the frames before it. If maps are also repaired (starfocus_repair_disparity), stabilise
+ * them first.
  *
  * @code
  * #include <starfocus/video.h>
@@ -20,6 +21,9 @@
  *   return starfocus_stabilise_disparity(stabiliser, NULL, frame, &map, NULL);
  * }
  * @endcode
+ *
+ * Calls with one stabiliser must not run at the same time. The bytes of a map do not depend on the
+ * runner, the number of workers or the SIMD target.
  */
 #ifndef STARFOCUS_VIDEO_H_
 #define STARFOCUS_VIDEO_H_
@@ -33,62 +37,68 @@ extern "C" {
 /** A stabiliser, which lives in memory of the caller and needs no destructor. */
 typedef struct starfocus_stabiliser starfocus_stabiliser;
 
-/** Computes the size of the memory of a stabiliser: 27 bytes per pixel of the picture.
+/** Computes the size of the memory of a stabiliser: about 27 bytes per pixel of the picture.
  *
  *  The functions of this header read these fields of starfocus_config: size, width, height,
  *  disparity_min, disparity_max and max_workers.
  *  @param config configuration
- *  @param bytes receives the size
+ *  @param bytes receives the size in bytes
  *  @param problem receives the cause of an error; may be null
  *  @return STARFOCUS_OK, an error of the configuration or STARFOCUS_ERROR_TOO_LARGE */
 STARFOCUS_API starfocus_status starfocus_stabiliser_size(const starfocus_config* config,
                                                          size_t* bytes, starfocus_problem* problem);
 
 /** Creates a stabiliser.
- *  @param config configuration
- *  @param memory memory aligned to STARFOCUS_ALIGNMENT, which the stabiliser uses until its end
- *  @param bytes size of the memory, at least starfocus_stabiliser_size
+ *  @param config configuration, of which the stabiliser keeps a copy
+ *  @param memory memory of the caller, aligned to STARFOCUS_ALIGNMENT, with any contents. The
+ *         stabiliser uses it until the caller frees it
+ *  @param bytes size of the memory, at least that of starfocus_stabiliser_size
  *  @param stabiliser receives the stabiliser, at the beginning of the memory
  *  @param problem receives the cause of an error; may be null
- *  @return STARFOCUS_OK, or an error of the arguments */
+ *  @return STARFOCUS_OK, an error of the configuration or of the memory, or
+ *          STARFOCUS_ERROR_TOO_LARGE */
 STARFOCUS_API starfocus_status starfocus_stabiliser_init(const starfocus_config* config,
                                                          void* memory, size_t bytes,
                                                          starfocus_stabiliser** stabiliser,
                                                          starfocus_problem* problem);
 
-/** What a stabiliser found in a frame. */
+/** Measurements of a call of starfocus_stabilise_disparity. */
 typedef struct starfocus_stabiliser_report {
   int64_t followed; /**< Pixels that show the same point as a pixel of the frame before. All other
-                         pixels, such as those behind a moving object, keep their measurement. */
-  int64_t changed;  /**< Followed pixels whose surface changed: an outline of the maps before was
-                         wrong. */
-  int32_t cut;      /**< 1 if less than two fifths of the pixels were followed, so that the maps
-                         start anew with this frame; else 0. */
-  double scale;     /**< The map was multiplied by this, */
-  double offset;    /**< and this was added, because maps of networks change as a whole. */
+                         pixels, such as those behind a moving object, keep their disparity. */
+  int64_t changed;  /**< Followed pixels that got another surface than in the frame before, because
+                         the maps before were wrong there, or unknown. */
+  int32_t cut;      /**< 1 if less than two fifths of the pixels were followed: the maps start again
+                         with this frame, and `followed` is 0. Otherwise 0. */
+  double scale;     /**< Change of the whole map: a disparity d of this map is d * scale + offset on
+                         the scale of the maps before it. In [0.75, 1.25], 1 without change. */
+  double offset;    /**< In pixels of disparity, 0 without change. */
 } starfocus_stabiliser_report;
 
 /** Stabilises the map of the next frame of a video. The first frame, and the first frame after a
  *  cut, keep their map.
  *
- *  Pixels follow the best of the motions around them, which are those of blocks of 8 x 8 pixels.
- *  The map is first multiplied by a scale and shifted to the mean scale of the last 8 maps. The
- *  disparity of a pixel becomes the mean of the disparities that were measured on its surface, of
- *  up to 8 frames. Where a map shows another surface than the maps before, the surface with more
- *  measurements wins: an outline that is wrong in a single map does not move. Unknown disparities
- *  are those of the frame before, or remain NaN.
+ *  Each pixel follows the best of the motions around it, which are those of blocks of 8 x 8 pixels.
+ *  The scale of the map becomes the mean scale of about 8 maps. The disparity of a pixel becomes
+ *  the mean of about 8 disparities that were measured on its surface. Where a map shows another
+ *  surface than the maps before it, the surface with more measurements wins, and the other surface
+ *  at the latest in the fifth such map: an outline that is wrong in a single map does not move.
+ *  Unknown disparities become those of the frame before, or NaN if these are unknown, too.
  *  @param stabiliser stabiliser
  *  @param callbacks runner and progress; null: the calling thread does all work
- *  @param frame frame: `views[0]` of any format, `depth` of any format, and `coverage`, which may
- *         be null. The known disparities must lie in the configured range
- *  @param map output planes. `disparity` may be the plane of `frame->depth`. `confidence` receives
- *         255 times the share of the measurements that belong to the surface, and 0 at new pixels.
- *         `coverage` receives the coverage of the frame, averaged over 3 frames where a surface
- *         continues
- *  @param report receives what was found; may be null
+ *  @param frame frame of width x height pixels, which is read during the call: `views[0]` in any
+ *         format of 8 bits, `depth` in any format and size, and `coverage`, which may be null.
+ *         Known disparities must be in [disparity_min, disparity_max]
+ *  @param map output planes of width x height pixels. `disparity` may be the plane of
+ *         `frame->depth` and `coverage` that of `frame`. `confidence` and `coverage` may be null.
+ *         `confidence` receives 255 times the share of the measurements that belong to the surface,
+ *         or 0 at pixels with less than two. `coverage` receives the coverage of the frame,
+ *         averaged over 3 frames where a surface continues; `has_coverage` is set to 0 if the frame
+ *         has no coverage
+ *  @param report receives measurements; may be null
  *  @return STARFOCUS_OK, an error of the arguments, STARFOCUS_ERROR_DISPARITY,
  *          STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER. After an error, the stabiliser is
- *          in the state before the call */
+ *          in the state before the call, and the output planes are unchanged */
 STARFOCUS_API starfocus_status starfocus_stabilise_disparity(starfocus_stabiliser* stabiliser,
                                                              const starfocus_callbacks* callbacks,
                                                              const starfocus_light_field* frame,
@@ -97,16 +107,18 @@ STARFOCUS_API starfocus_status starfocus_stabilise_disparity(starfocus_stabilise
 
 /** A subject that the focus follows. */
 typedef struct starfocus_track {
-  int32_t x, y; /**< Place of the point in the picture, pixels. */
+  int32_t x, y; /**< Point of the subject in the picture, pixels. */
   double focus; /**< Disparity of the subject, for starfocus_params.focus. */
-  int32_t lost; /**< Number of frames since the subject was seen last; 0: it is seen. While it is
-                     lost, the other fields keep their values. */
-  uint8_t patch[256]; /**< What the subject looks like; of the library. */
+  int32_t lost; /**< Number of frames since the subject was last found; 0: it was found in the last
+                     frame. While it is lost, the other fields keep their values. */
+  uint8_t patch[256]; /**< Picture of the subject, private to the library. */
 } starfocus_track;
 
-/** Starts to follow the subject at a point of the last frame, such as a tapped one.
- *  @param stabiliser stabiliser of at least one frame, of at least 16 x 16 pixels
- *  @param x,y point in the picture
+/** Starts to follow the subject at a point of the last frame, such as a tapped one. The focus is
+ *  the median of the stabilised disparities of its surface within 8 pixels. If the disparity of the
+ *  point is unknown, it is the median of all known disparities there, or 0 if there are none.
+ *  @param stabiliser stabiliser after at least one frame, of at least 16 x 16 pixels
+ *  @param x,y point in the picture, pixels
  *  @param track receives the subject
  *  @return STARFOCUS_OK, STARFOCUS_ERROR_STATE before the first frame, or an error of the
  *          arguments */
@@ -117,19 +129,22 @@ STARFOCUS_API starfocus_status starfocus_track_begin(starfocus_stabiliser* stabi
  *  picture, and then to the place within 3 pixels where the picture looks most like the subject.
  *  The focus is the median of the stabilised disparities of its surface around the point.
  *
- *  The subject is lost if the picture does not look like it, or shows another surface, or if the
- *  point leaves the picture. It is found again within 12 pixels of its last place.
- *  @param stabiliser stabiliser
- *  @param track subject, which is updated
+ *  The subject is lost if the picture at this place does not look like it or shows another surface,
+ *  or if the point leaves the picture. A lost subject is found again within 12 pixels of its last
+ *  point.
+ *  @param stabiliser stabiliser of starfocus_track_begin
+ *  @param track subject, which is updated. Several subjects may be followed
  *  @return STARFOCUS_OK, STARFOCUS_ERROR_STATE before the first frame, or an error of the
  *          arguments */
 STARFOCUS_API starfocus_status starfocus_track_focus(starfocus_stabiliser* stabiliser,
                                                      starfocus_track* track);
 
-/** Makes the next frame the first frame of another video. */
+/** Makes the next frame the first frame of another video, of the same size.
+ *  @param stabiliser stabiliser; null: does nothing */
 STARFOCUS_API void starfocus_stabiliser_restart(starfocus_stabiliser* stabiliser);
 
-/** Returns the description of the error of the last call with a stabiliser. */
+/** Returns the description of the error of the last call with a stabiliser, which is valid until
+ *  the next call; null if `stabiliser` is null. */
 STARFOCUS_API const starfocus_problem* starfocus_stabiliser_problem(
     const starfocus_stabiliser* stabiliser);
 
