@@ -45,7 +45,8 @@ struct Fusion {
   Drift of_map, of_before;  // from the map, and from the frame before, to their mean scale
   Plane<int16_t> given;     // measurements, kNoSurface: unknown
   // Disparities of the surface and of another surface of each pixel, and the numbers of their
-  // measurements; a count of 0: no surface. FuseRows changes them from the frame before to this one.
+  // measurements; a count of 0: no surface. FuseRows changes them from the frame before to this
+  // one.
   Plane<int16_t> disparity, other;
   Plane<uint8_t> count, others;
   Plane<uint8_t> relations;  // elements are Relation

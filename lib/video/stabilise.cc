@@ -63,7 +63,8 @@ int32_t CopyBlock(const Stabiliser& s, const Rect& block, const Motion* motions,
       now.others.data[at] = before.others.data[from];
       *At(now.disparity, x, y) = *At(before.disparity, from_x, from_y);
       if (!now.has_coverage) continue;
-      now.coverage.data[at] = before.has_coverage ? before.coverage.data[from] : s.coverage.data[at];
+      now.coverage.data[at] =
+          before.has_coverage ? before.coverage.data[from] : s.coverage.data[at];
     }
   }
   return followed;

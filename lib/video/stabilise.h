@@ -51,7 +51,7 @@ struct Stabiliser {
   Plane<int16_t> given;     // disparities of the map of the next frame, kNoSurface: unknown
   Plane<uint8_t> coverage;  // its coverage, if its frame has coverage
   Plane<uint8_t> relations;  // see Fusion::relations
-  uint32_t* columns;  // see DepthSource::columns
+  uint32_t* columns;         // see DepthSource::columns
   MotionField motion[kMotionLevels];
   DriftSums* sums;        // of each row of blocks
   int64_t* sums_of_rows;  // of pixels
