@@ -81,14 +81,16 @@ typedef struct starfocus_stabiliser_report {
  *  Each pixel follows the best of the motions around it, which are those of blocks of 8 x 8 pixels.
  *  The scale of the map becomes the mean scale of about 8 maps. The disparity of a pixel becomes
  *  the mean of about 8 disparities that were measured on its surface. Where a map shows another
- *  surface than the maps before it, the surface with more measurements wins, and the other surface
- *  at the latest in the fifth such map: an outline that is wrong in a single map does not move.
- *  Unknown disparities become those of the frame before, or NaN if these are unknown, too.
+ *  surface than the maps before it, within 3 pixels of its outlines, the surface with more
+ *  measurements wins, and the other surface at the latest in the fifth such map: an outline that is
+ *  wrong in a single map does not move. Elsewhere, the map is right. Unknown disparities become
+ *  those of the frame before, or NaN if these are unknown, too.
  *  @param stabiliser stabiliser
  *  @param callbacks runner and progress; null: the calling thread does all work
  *  @param frame frame of width x height pixels, which is read during the call: `views[0]` in any
- *         format of 8 bits, `depth` in any format and size, and `coverage`, which may be null.
- *         Known disparities must be in [disparity_min, disparity_max]
+ *         format of 8 bits, `depth` in any format, as large as the picture or smaller, and
+ *         `coverage`, which may be null. Known disparities must be in [disparity_min,
+ *         disparity_max]
  *  @param map output planes of width x height pixels. `disparity` may be the plane of
  *         `frame->depth` and `coverage` that of `frame`. `confidence` and `coverage` may be null.
  *         `confidence` receives 255 times the share of the measurements that belong to the surface,
