@@ -37,7 +37,7 @@ extern "C" {
 /** A stabiliser, which lives in memory of the caller and needs no destructor. */
 typedef struct starfocus_stabiliser starfocus_stabiliser;
 
-/** Computes the size of the memory of a stabiliser: about 26 bytes per pixel of the picture.
+/** Computes the size of the memory of a stabiliser: about 27 bytes per pixel of the picture.
  *
  *  The functions of this header read these fields of starfocus_config: size, width, height,
  *  disparity_min, disparity_max and max_workers.
