@@ -4,3 +4,4 @@
 #include <starfocus/depth.h>
 #include <starfocus/matte.h>
 #include <starfocus/starfocus.h>
+#include <starfocus/video.h>
