@@ -83,7 +83,7 @@ typedef struct starfocus_stabiliser_report {
  *  the mean of about 8 disparities that were measured on its surface. Where a map shows another
  *  surface than the maps before it, within 3 pixels of its outlines, the surface with more
  *  measurements wins, and the other surface at the latest in the fifth such map: an outline that is
- *  wrong in a single map does not move. Elsewhere, the map is right. Unknown disparities become
+ *  wrong in a single map does not move. Farther away, the map decides. Unknown disparities become
  *  those of the frame before, or NaN if these are unknown, too.
  *  @param stabiliser stabiliser
  *  @param callbacks runner and progress; null: the calling thread does all work
