@@ -82,13 +82,13 @@ Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inpu
 }
 
 Result<Frame> FrameFolders::Open(const MapOptions& options, const Positions& views, int threads,
-                                 Capture* capture) {
+                                 const Change& change, Capture* capture) {
   Frame frame;
   frame.files.icc = std::move(capture->metadata.icc);
   frame.files.colours = std::move(capture->metadata.colours);
   frame.files.is_linear = capture->light_field.is_linear;
-  if (!IsReady(options, *capture)) {
-    if (Error error = Convert(options, views, threads, capture, &frame)) return error;
+  if (change || !IsReady(options, *capture)) {
+    if (Error error = Convert(options, views, threads, change, capture, &frame)) return error;
     return frame;
   }
   frame.files.folder = capture->path;
@@ -99,7 +99,7 @@ Result<Frame> FrameFolders::Open(const MapOptions& options, const Positions& vie
 }
 
 Error FrameFolders::Convert(const MapOptions& options, const Positions& views, int threads,
-                            Capture* capture, Frame* frame) {
+                            const Change& change, Capture* capture, Frame* frame) {
   Error error = folder_.path().empty() ? folder_.Create() : Error();
   frame->files.folder = folder_.path() + "/" + std::to_string(count_++);
   frame->files.where = MapName(*capture);
@@ -107,6 +107,7 @@ Error FrameFolders::Convert(const MapOptions& options, const Positions& views, i
   if (!error && capture->photo) frame->focus = FindDefaultFocus(*capture);
   if (!error) error = LoadInput(views, threads, capture);
   if (!error && !capture->photo) frame->focus = FindDefaultFocus(*capture);
+  if (!error && change) error = change(capture);
   if (!error) error = CareForMap(options, threads, capture);
   if (error) return error;
   ThreadRunner runner(threads);

@@ -51,16 +51,19 @@ struct Frame {
 // Converts frames to light-field folders, and removes these folders at the end.
 class FrameFolders {
  public:
+  // Changes the map of a loaded frame before it is repaired.
+  using Change = std::function<Error(Capture* capture)>;
+
   // Opens a frame whose input is already open. Converts the frame unless it is a light-field folder
   // whose map needs no processing. Converted frames contain the views at the positions `views`, or
-  // all views if `views` is empty.
+  // all views if `views` is empty. `change` may be null.
   Result<Frame> Open(const MapOptions& options, const Positions& views, int threads,
-                     Capture* capture);
+                     const Change& change, Capture* capture);
 
  private:
   // Loads the views and the map, processes the map, and writes the folder.
-  Error Convert(const MapOptions& options, const Positions& views, int threads, Capture* capture,
-                Frame* frame);
+  Error Convert(const MapOptions& options, const Positions& views, int threads,
+                const Change& change, Capture* capture, Frame* frame);
 
   TemporaryFolder folder_;
   int count_ = 0;  // converted frames

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "platform/problem.h"
+#include "platform/y4m.h"
 #include "starfocus/starfocus.hpp"
 
 namespace starfocus {
@@ -13,8 +14,8 @@ Error MapStabiliser::Start(const std::string& path, const LightField& frame) {
   starfocus::Config config;
   config.width = frame.width();
   config.height = frame.height();
-  config.disparity_min = -STARFOCUS_MAX_DISPARITY;
-  config.disparity_max = STARFOCUS_MAX_DISPARITY;
+  config.disparity_min = range_.min;
+  config.disparity_max = range_.max;
   config.max_workers = pool_.workers();
   starfocus_problem problem = {};
   size_t bytes = 0;
@@ -37,7 +38,11 @@ Error MapStabiliser::Stabilise(const std::string& path, LightField* frame,
   const auto width = static_cast<size_t>(frame->width());
   const bool covers = !frame->coverage.empty();
   starfocus_light_field field = NewLightField();
-  field.views[0] = starfocus_image_rgb(frame->views[0].row(0), frame->views[0].stride());
+  const bool is_planar = !frame->planar.samples.empty();
+  const PlanarImage narrow = is_planar ? Narrow(frame->planar) : PlanarImage();
+  field.views[0] = is_planar
+                       ? EngineImage(narrow)
+                       : starfocus_image_rgb(frame->views[0].row(0), frame->views[0].stride());
   field.depth = EngineMap(frame->disparity);
   field.coverage = covers ? frame->coverage.data() : nullptr;
   field.coverage_stride = width;

@@ -7,6 +7,7 @@
 #include <new>
 #include <string>
 
+#include "examples/cli/estimate_run.h"
 #include "platform/light_field.h"
 #include "platform/result.h"
 #include "platform/runner.h"
@@ -16,7 +17,10 @@ namespace starfocus {
 
 class MapStabiliser {
  public:
-  explicit MapStabiliser(int threads) : pool_(threads) {}
+  // Stabilised disparities lie within `range`, which contains those of all frames.
+  explicit MapStabiliser(int threads,
+                         DisparityRange range = {-STARFOCUS_MAX_DISPARITY, STARFOCUS_MAX_DISPARITY})
+      : pool_(threads), range_(range) {}
 
   // Stabilises the map and the coverage of the next frame. All frames have the size of the first.
   // `path` names the frame in messages. `report` may be null.
@@ -35,6 +39,7 @@ class MapStabiliser {
   Error Start(const std::string& path, const LightField& frame);
 
   ThreadRunner pool_;
+  DisparityRange range_;
   std::unique_ptr<void, FreeAligned> memory_;
   starfocus_stabiliser* stabiliser_ = nullptr;
 };

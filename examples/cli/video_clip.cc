@@ -124,6 +124,23 @@ Error ChooseFirstFocus(const std::string& input, const DefaultFocus& focus, cons
   return {};
 }
 
+// Returns true if the maps of a video are stabilised: those that are repaired by default, and
+// others if an option asks for it.
+bool WillStabilise(const VideoOptions& options, const Capture& capture) {
+  const bool is_default = capture.care == MapCare::kRepair && !options.map.no_repair;
+  return options.stabilise || (is_default && !options.no_stabilise);
+}
+
+// Stabilises the map of the next frame, if the maps of the video are stabilised.
+Error StabiliseMap(const VideoOptions& options, const std::string& where, int threads,
+                   DisparityRange range, Capture* capture, Video* video) {
+  if (!WillStabilise(options, *capture)) return {};
+  if (video->stabiliser == nullptr) {
+    video->stabiliser = std::make_unique<MapStabiliser>(threads, range);
+  }
+  return video->stabiliser->Stabilise(where, &capture->light_field, nullptr);
+}
+
 // Opens a frame. The first frame sets the aperture and the views of all frames.
 Result<Frame> OpenFrame(const VideoOptions& options, const FrameSource& source, LensPlan* plan,
                         Video* video) {
@@ -138,8 +155,20 @@ Result<Frame> OpenFrame(const VideoOptions& options, const FrameSource& source, 
   if (is_first) {
     if (Error error = PlanApertures(options, *capture, plan, video)) return error;
   }
+  const int threads = plan->options.threads;
+  FrameFolders::Change stabilise;
+  if (WillStabilise(options, *capture)) {
+    stabilise = [&](Capture* loaded) {
+      if (!is_first) {
+        Error error = CheckSize(source.path, loaded->light_field.disparity, *video);
+        if (error) return error;
+      }
+      return StabiliseMap(options, source.path, threads,
+                          {-STARFOCUS_MAX_DISPARITY, STARFOCUS_MAX_DISPARITY}, loaded, video);
+    };
+  }
   Result<Frame> frame = video->converted.Open(
-      options.map, is_first ? plan->options.views : video->views, plan->options.threads, &*capture);
+      options.map, is_first ? plan->options.views : video->views, threads, stabilise, &*capture);
   if (!frame) return frame;
   const auto chosen =
       ChooseViewFiles(frame->files.folder, is_first ? plan->options.views : video->views);
@@ -271,10 +300,21 @@ Result<bool> ReadFrame(const VideoOptions& options, Video* video, ClipFrame* fra
   return true;
 }
 
+Result<bool> FitFrame(const VideoOptions& options, const LensPlan& plan, Video* video,
+                      ClipFrame* frame) {
+  Capture& capture = frame->capture;
+  const int threads = plan.options.threads;
+  const DisparityRange range = {static_cast<float>(video->stats.min),
+                                static_cast<float>(video->stats.max)};
+  Error error = LoadInput({}, threads, &capture);
+  if (!error) error = StabiliseMap(options, frame->where, threads, range, &capture, video);
+  if (error) return error;
+  return true;
+}
+
 Result<bool> RepairFrame(const VideoOptions& options, const LensPlan& plan, ClipFrame* frame) {
   Capture& capture = frame->capture;
-  Error error = LoadInput({}, plan.options.threads, &capture);
-  if (!error) error = CareForMap(options.map, plan.options.threads, &capture);
+  Error error = CareForMap(options.map, plan.options.threads, &capture);
   if (!error) {
     error = Prepare(options, frame->where, &capture.light_field.disparity).error();
   }

@@ -5,12 +5,14 @@
 #define STARFOCUS_EXAMPLES_CLI_VIDEO_CLIP_H_
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "examples/cli/frames.h"
 #include "examples/cli/input_options.h"
 #include "examples/cli/lens_keys.h"
+#include "examples/cli/map_stabiliser.h"
 #include "examples/cli/refocus_plan.h"
 #include "examples/cli/stages.h"
 #include "examples/cli/stream_clip.h"
@@ -25,6 +27,7 @@ struct VideoOptions {
   LensOptions lens;
   LensKeyOptions keys;
   MapOptions map;
+  bool stabilise = false, no_stabilise = false;
 };
 
 // Frames of a video and their common properties.
@@ -35,7 +38,8 @@ struct Video {
   MapSurvey survey;  // of the depth maps of all frames
   KeptPictures computed;
   FrameFolders converted;
-  std::vector<FrameFiles> frames;  // frames that are open, in the order of `sources`
+  std::unique_ptr<MapStabiliser> stabiliser;  // null before the first map that is stabilised
+  std::vector<FrameFiles> frames;             // frames that are open, in the order of `sources`
   int width = 0, height = 0;
   Positions views;
   starfocus_disparity_stats stats = {};  // over all frames
@@ -67,8 +71,10 @@ Error ScanVideo(const VideoOptions& options, LensPlan* plan, Video* video);
 // Stage: reads a frame with its map.
 Result<bool> ReadFrame(const VideoOptions& options, Video* video, ClipFrame* frame);
 
-// Stage: fits the map of a frame of a stream to the frame, and repairs it. Maps of files have been
-// repaired when the files were opened.
+// Stages of a stream: fit the map of a frame to the frame and stabilise it; repair it. Maps of
+// files have been stabilised and repaired when the files were opened.
+Result<bool> FitFrame(const VideoOptions& options, const LensPlan& plan, Video* video,
+                      ClipFrame* frame);
 Result<bool> RepairFrame(const VideoOptions& options, const LensPlan& plan, ClipFrame* frame);
 
 }  // namespace starfocus

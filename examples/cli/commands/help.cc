@@ -31,8 +31,7 @@ bool IsPattern(const std::string& word) {
 // Returns the arguments of compgen that list the values of a type, or an empty string if the values
 // are unknown.
 std::string Values(const std::string& type) {
-  if (type == "FILE") return "-f";
-  if (type == "DIR") return "-d";
+  if (type.find("FILE") != std::string::npos) return "-f";  // lists folders, too
   if (type.find('|') == std::string::npos) return "";
   std::string words;
   for (size_t begin = 0; begin < type.size();) {

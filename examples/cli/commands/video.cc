@@ -192,10 +192,9 @@ Result<Written> RefocusFrames(const VideoOptions& options, const LensPlan& plan,
   std::vector<Stage> stages;
   stages.emplace_back([&](ClipFrame* frame) { return ReadFrame(options, video, frame); });
   if (video->is_stream) {
+    stages.emplace_back([&](ClipFrame* frame) { return FitFrame(options, plan, video, frame); });
     stages.emplace_back([&](ClipFrame* frame) { return RepairFrame(options, plan, frame); });
   }
-  // A stage that stabilises the maps belongs here: it gets the frames in order, with the centre
-  // view and the map in frame->capture.light_field.
   stages.emplace_back([&](ClipFrame* frame) { return refocusing.Refocus(frame); });
   stages.emplace_back([&](ClipFrame* frame) -> Result<bool> {
     Result<bool> open = output->Write(*frame);
@@ -290,6 +289,13 @@ Command VideoCommand() {
   AddMapOptions(&command, &options->map);
   AddOptions(
       {
+          {"--stabilise", nullptr,
+           "Fuse the map of each frame with those of the frames before, which follow the motion of "
+           "the picture, so that the blur does not flicker; this is the default for maps that are "
+           "repaired by default",
+           &options->stabilise},
+          {"--no-stabilise", nullptr, "Use the map of each frame alone", &options->no_stabilise,
+           Use::kOptional, "--stabilise"},
           {"--report", "FILE",
            "JSON file to write with the measurements of each frame, such as the number of "
            "reused blocks; default: none",
