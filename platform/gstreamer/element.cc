@@ -89,8 +89,8 @@ GstFlowReturn Fail(GstStarfocus* self, const char* problem) {
   return GST_FLOW_ERROR;
 }
 
-void ForgetFrames(GstStarfocus* self) {
-  gst_clear_buffer(&self->map);
+// Prepares for frames that do not continue the earlier frames.
+void Restart(GstStarfocus* self) {
   self->refocuser.Restart();
   GST_OBJECT_LOCK(self);
   self->earliest = GST_CLOCK_TIME_NONE;
@@ -161,7 +161,10 @@ GstFlowReturn RefocusInto(GstStarfocus* self, GstBuffer* video, GstBuffer* pictu
   if (is_done) {
     is_done = gst_video_frame_map(&out, &self->video_info, picture, GST_MAP_WRITE);
     if (is_done) {
+      const GstClockTime start = gst_util_get_timestamp();
       is_done = self->refocuser.Refocus(settings, frame, depth, &out, &problem);
+      const GstClockTime microseconds = (gst_util_get_timestamp() - start) / 1000;
+      GST_LOG_OBJECT(self, "refocused a frame in %" G_GUINT64_FORMAT " us", microseconds);
       gst_video_frame_unmap(&out);
     }
     gst_video_frame_unmap(&depth);
@@ -256,10 +259,15 @@ gboolean SinkEvent(GstAggregator* aggregator, GstAggregatorPad* pad, GstEvent* e
     gst_event_unref(event);
     return is_set;
   }
+  // A segment also follows each flush.
+  if (GST_EVENT_TYPE(event) == GST_EVENT_SEGMENT && pad == self->depth) {
+    gst_clear_buffer(&self->map);
+  }
   if (GST_EVENT_TYPE(event) == GST_EVENT_SEGMENT && pad == self->video) {
     const GstSegment* segment = nullptr;
     gst_event_parse_segment(event, &segment);
     gst_aggregator_update_segment(aggregator, segment);
+    Restart(self);
   }
   return Parent()->sink_event(aggregator, pad, event);
 }
@@ -340,11 +348,6 @@ gboolean ProposeAllocation(GstAggregator*, GstAggregatorPad*, GstQuery*, GstQuer
   return TRUE;
 }
 
-GstFlowReturn Flush(GstAggregator* aggregator) {
-  ForgetFrames(Self(aggregator));
-  return GST_FLOW_OK;
-}
-
 gboolean Start(GstAggregator* aggregator) {
   GstStarfocus* const self = Self(aggregator);
   GST_OBJECT_LOCK(self);
@@ -356,7 +359,8 @@ gboolean Start(GstAggregator* aggregator) {
 
 gboolean Stop(GstAggregator* aggregator) {
   GstStarfocus* const self = Self(aggregator);
-  ForgetFrames(self);
+  Restart(self);
+  gst_clear_buffer(&self->map);
   gst_caps_replace(&self->video_caps, nullptr);
   self->refocuser.Close();
   return TRUE;
@@ -489,7 +493,6 @@ void element_class_init(GstStarfocusClass* made) {
   aggregator->update_src_caps = UpdateSourceCaps;
   aggregator->decide_allocation = DecideAllocation;
   aggregator->propose_allocation = ProposeAllocation;
-  aggregator->flush = Flush;
   aggregator->start = Start;
   aggregator->stop = Stop;
 }
@@ -506,4 +509,4 @@ gboolean Register(GstPlugin* plugin) {
 GST_PLUGIN_DEFINE(GST_VERSION_MAJOR, GST_VERSION_MINOR, starfocus,
                   "Refocuses video with depth", starfocus::Register,
                   STARFOCUS_VERSION_STRING, "Apache 2.0", PACKAGE,
-                  "https://github.com/starfocus/starfocus")
+                  PACKAGE)
