@@ -5,6 +5,7 @@
 #include <gst/base/gstaggregator.h>
 #include <gst/video/gstvideopool.h>
 
+#include <initializer_list>
 #include <new>
 
 #include "platform/gstreamer/refocuser.h"
@@ -14,9 +15,6 @@ GST_DEBUG_CATEGORY_STATIC(starfocus_debug);
 
 namespace starfocus {
 namespace {
-
-// Largest absolute disparity of a property. Blur is limited to half of this.
-constexpr double kMostDisparity = 2 * STARFOCUS_MAX_BLUR;
 
 GstStaticPadTemplate video_template =
     GST_STATIC_PAD_TEMPLATE("video", GST_PAD_SINK, GST_PAD_ALWAYS,
@@ -53,21 +51,10 @@ struct GstStarfocusClass {
 
 G_DEFINE_TYPE(GstStarfocus, element, GST_TYPE_AGGREGATOR)
 
-enum { kFocus = 1, kAperture, kShape, kStabilise, kThreads, kBlack, kWhite, kDropped };
+constexpr guint kDropped = kSettings + 1;  // identifier of the property after the settings
 
 GstStarfocus* Self(gpointer object) { return static_cast<GstStarfocus*>(object); }
 GstAggregatorClass* Parent() { return GST_AGGREGATOR_CLASS(element_parent_class); }
-
-GType ShapeType() {
-  static const GEnumValue values[] = {
-      {STARFOCUS_SHAPE_FALL_OFF, "Disc that is darker towards its rim", "fall-off"},
-      {STARFOCUS_SHAPE_DISC, "Disc of constant brightness", "disc"},
-      {STARFOCUS_SHAPE_POLYGON, "Polygon with 5 corners", "polygon"},
-      {STARFOCUS_SHAPE_RING, "Disc with a hole", "ring"},
-      {0, nullptr, nullptr}};
-  static const GType type = g_enum_register_static("StarfocusShape", values);
-  return type;
-}
 
 // Returns the running time of a buffer, which is negative before the segment, or
 // GST_CLOCK_STIME_NONE if the buffer has no timestamp.
@@ -121,24 +108,23 @@ GstFlowReturn FindDepth(GstStarfocus* self, GstClockTimeDiff time, bool is_late)
   }
   const bool is_last = gst_aggregator_pad_is_eos(self->depth);
   if (self->map != nullptr && (is_last || is_late)) return GST_FLOW_OK;
-  return is_last ? Fail(self, "the pad depth received no frame")
-                 : GST_AGGREGATOR_FLOW_NEED_DATA;
+  return is_last ? Fail(self, "the pad depth received no frame") : GST_AGGREGATOR_FLOW_NEED_DATA;
 }
 
 // Returns true if downstream is so late that the frame must be dropped, and reports the drop.
 bool Drop(GstStarfocus* self, GstBuffer* video, GstClockTimeDiff time) {
   GST_OBJECT_LOCK(self);
   const GstClockTime earliest = self->earliest;
-  const bool is_late = GST_CLOCK_TIME_IS_VALID(earliest) && time >= 0 &&
-                       static_cast<GstClockTime>(time) < earliest;
+  const bool is_late =
+      GST_CLOCK_TIME_IS_VALID(earliest) && time >= 0 && static_cast<GstClockTime>(time) < earliest;
   if (is_late) ++self->dropped;
   const guint64 dropped = self->dropped;
   const gdouble proportion = self->proportion;
   GST_OBJECT_UNLOCK(self);
   if (!is_late) return false;
   const gboolean is_live = GST_CLOCK_TIME_IS_VALID(gst_aggregator_get_latency(&self->parent));
-  const GstClockTime stream_time = gst_segment_to_stream_time(
-      &self->video->segment, GST_FORMAT_TIME, GST_BUFFER_PTS(video));
+  const GstClockTime stream_time =
+      gst_segment_to_stream_time(&self->video->segment, GST_FORMAT_TIME, GST_BUFFER_PTS(video));
   GstMessage* const message =
       gst_message_new_qos(GST_OBJECT(self), is_live, static_cast<guint64>(time), stream_time,
                           GST_BUFFER_PTS(video), GST_BUFFER_DURATION(video));
@@ -218,8 +204,8 @@ GstFlowReturn Aggregate(GstAggregator* aggregator, gboolean timeout) {
     gst_buffer_unref(video);
     return flow;
   }
-  const GstClockTime stream_time = gst_segment_to_stream_time(
-      &self->video->segment, GST_FORMAT_TIME, GST_BUFFER_PTS(video));
+  const GstClockTime stream_time =
+      gst_segment_to_stream_time(&self->video->segment, GST_FORMAT_TIME, GST_BUFFER_PTS(video));
   if (GST_CLOCK_TIME_IS_VALID(stream_time)) gst_object_sync_values(GST_OBJECT(self), stream_time);
   gst_aggregator_selected_samples(aggregator, GST_BUFFER_PTS(video), GST_BUFFER_DTS(video),
                                   GST_BUFFER_DURATION(video), nullptr);
@@ -366,36 +352,16 @@ gboolean Stop(GstAggregator* aggregator) {
   return TRUE;
 }
 
-void SetProperty(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
+void SetProperty(GObject* object, guint id, const GValue* value, GParamSpec*) {
   GST_OBJECT_LOCK(object);
-  RefocusSettings& settings = Self(object)->settings;
-  switch (id) {
-    case kFocus: settings.focus = g_value_get_double(value); break;
-    case kAperture: settings.aperture = g_value_get_double(value); break;
-    case kShape: settings.shape = g_value_get_enum(value); break;
-    case kStabilise: settings.stabilise = g_value_get_boolean(value); break;
-    case kThreads: settings.threads = g_value_get_int(value); break;
-    case kBlack: settings.black = g_value_get_double(value); break;
-    case kWhite: settings.white = g_value_get_double(value); break;
-    default: G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  }
+  SetSetting(id, value, &Self(object)->settings);
   GST_OBJECT_UNLOCK(object);
 }
 
-void GetProperty(GObject* object, guint id, GValue* value, GParamSpec* spec) {
+void GetProperty(GObject* object, guint id, GValue* value, GParamSpec*) {
   GST_OBJECT_LOCK(object);
-  const RefocusSettings& settings = Self(object)->settings;
-  switch (id) {
-    case kFocus: g_value_set_double(value, settings.focus); break;
-    case kAperture: g_value_set_double(value, settings.aperture); break;
-    case kShape: g_value_set_enum(value, settings.shape); break;
-    case kStabilise: g_value_set_boolean(value, settings.stabilise); break;
-    case kThreads: g_value_set_int(value, settings.threads); break;
-    case kBlack: g_value_set_double(value, settings.black); break;
-    case kWhite: g_value_set_double(value, settings.white); break;
-    case kDropped: g_value_set_uint64(value, Self(object)->dropped); break;
-    default: G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  }
+  GetSetting(id, Self(object)->settings, value);
+  if (id == kDropped) g_value_set_uint64(value, Self(object)->dropped);
   GST_OBJECT_UNLOCK(object);
 }
 
@@ -422,63 +388,22 @@ void element_init(GstStarfocus* self) {
   self->proportion = 1;
 }
 
-constexpr auto kControlled =
-    static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS | GST_PARAM_CONTROLLABLE |
-                             GST_PARAM_MUTABLE_PLAYING);
-
-void AddDouble(GObjectClass* object, guint id, const char* name, const char* title,
-               const char* text, double least, double most, double value) {
-  g_object_class_install_property(
-      object, id, g_param_spec_double(name, title, text, least, most, value, kControlled));
-}
-
-void AddProperties(GObjectClass* object) {
-  const RefocusSettings defaults;
-  AddDouble(object, kFocus, "focus", "Focus", "Disparity in focus, pixels", -kMostDisparity,
-            kMostDisparity, defaults.focus);
-  AddDouble(object, kAperture, "aperture", "Aperture",
-            "Radius of the blur, pixels per pixel of disparity outside the focus", 0, 1,
-            defaults.aperture);
-  AddDouble(object, kBlack, "disparity-black", "Disparity of black",
-            "Disparity of the smallest grey value of the depth, pixels", -kMostDisparity,
-            kMostDisparity, defaults.black);
-  AddDouble(object, kWhite, "disparity-white", "Disparity of white",
-            "Disparity of the largest grey value of the depth, pixels", -kMostDisparity,
-            kMostDisparity, defaults.white);
-  g_object_class_install_property(
-      object, kShape,
-      g_param_spec_enum("shape", "Shape", "Shape of the opening of the lens", ShapeType(),
-                        defaults.shape, kControlled));
-  g_object_class_install_property(
-      object, kStabilise,
-      g_param_spec_boolean("stabilise", "Stabilise",
-                           "Follow surfaces from frame to frame, against flicker of the depth",
-                           defaults.stabilise, kControlled));
-  g_object_class_install_property(
-      object, kThreads,
-      g_param_spec_int("threads", "Threads", "Number of threads; 0: as many as fast cores", 0,
-                       STARFOCUS_MAX_WORKERS, defaults.threads, kControlled));
-  g_object_class_install_property(
-      object, kDropped,
-      g_param_spec_uint64("dropped", "Dropped", "Frames dropped because they would be late", 0,
-                          G_MAXUINT64, 0,
-                          static_cast<GParamFlags>(G_PARAM_READABLE | G_PARAM_STATIC_STRINGS)));
-}
-
 void element_class_init(GstStarfocusClass* made) {
   GObjectClass* const object = G_OBJECT_CLASS(made);
   object->set_property = SetProperty;
   object->get_property = GetProperty;
   object->finalize = Finalize;
-  AddProperties(object);
+  AddSettings(object);
+  g_object_class_install_property(
+      object, kDropped,
+      g_param_spec_uint64("dropped", "Dropped", "Frames dropped because they would be late", 0,
+                          G_MAXUINT64, 0,
+                          static_cast<GParamFlags>(G_PARAM_READABLE | G_PARAM_STATIC_STRINGS)));
 
   GstElementClass* const element = GST_ELEMENT_CLASS(made);
-  gst_element_class_add_static_pad_template_with_gtype(element, &video_template,
-                                                       GST_TYPE_AGGREGATOR_PAD);
-  gst_element_class_add_static_pad_template_with_gtype(element, &depth_template,
-                                                       GST_TYPE_AGGREGATOR_PAD);
-  gst_element_class_add_static_pad_template_with_gtype(element, &picture_template,
-                                                       GST_TYPE_AGGREGATOR_PAD);
+  for (GstStaticPadTemplate* pad : {&video_template, &depth_template, &picture_template}) {
+    gst_element_class_add_static_pad_template_with_gtype(element, pad, GST_TYPE_AGGREGATOR_PAD);
+  }
   gst_element_class_set_static_metadata(element, "Refocus", "Filter/Effect/Video",
                                         "Changes the focus and the aperture of video with depth",
                                         "The starfocus authors <starfocus@example.org>");
@@ -506,7 +431,5 @@ gboolean Register(GstPlugin* plugin) {
 }  // namespace starfocus
 
 #define PACKAGE "starfocus"
-GST_PLUGIN_DEFINE(GST_VERSION_MAJOR, GST_VERSION_MINOR, starfocus,
-                  "Refocuses video with depth", starfocus::Register,
-                  STARFOCUS_VERSION_STRING, "Apache 2.0", PACKAGE,
-                  PACKAGE)
+GST_PLUGIN_DEFINE(GST_VERSION_MAJOR, GST_VERSION_MINOR, starfocus, "Refocuses video with depth",
+                  starfocus::Register, STARFOCUS_VERSION_STRING, "Apache 2.0", PACKAGE, PACKAGE)

@@ -25,7 +25,8 @@ bool Check(starfocus_status status, const starfocus_problem* cause, ProblemText*
 bool ReadColour(const GstVideoColorimetry& colour, starfocus_image* image, ProblemText* problem) {
   const bool is_709 = colour.matrix == GST_VIDEO_COLOR_MATRIX_BT709;
   if (!is_709 && colour.matrix != GST_VIDEO_COLOR_MATRIX_BT601) {
-    return Fail(problem, "the video has the YUV matrix %d, but only BT.601 and BT.709 are supported",
+    return Fail(problem,
+                "the video has the YUV matrix %d, but only BT.601 and BT.709 are supported",
                 gst_video_color_matrix_to_iso(colour.matrix));
   }
   image->matrix = is_709 ? STARFOCUS_MATRIX_BT709 : STARFOCUS_MATRIX_BT601;

@@ -7,21 +7,13 @@
 
 #include <gst/video/video.h>
 
+#include "platform/gstreamer/settings.h"
 #include "platform/problem.h"
 #include "starfocus/pool.h"
 #include "starfocus/starfocus.h"
 #include "starfocus/video.h"
 
 namespace starfocus {
-
-// The properties of the element.
-struct RefocusSettings {
-  double focus = 0, aperture = 1;
-  int shape = STARFOCUS_SHAPE_FALL_OFF;
-  gboolean stabilise = FALSE;
-  int threads = 0;                // 0: as many as the machine has fast cores.
-  double black = -8, white = 8;  // Disparities of the smallest and largest grey value.
-};
 
 class Refocuser {
  public:

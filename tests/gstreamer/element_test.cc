@@ -2,6 +2,7 @@
 // Pushes frames through the GStreamer element and compares its pictures with those of the engine.
 #include <doctest/doctest.h>
 #include <gst/check/gstharness.h>
+#include <gst/controller/controller.h>
 #include <gst/video/video.h>
 
 #include <cstring>
@@ -46,7 +47,7 @@ Bytes Surfaces(const GstVideoInfo& info, int right) {
   return bytes;
 }
 
-// A property of the element, or a field of the engine that it sets.
+// Properties of the element that are fields of the engine's parameters.
 struct Lens {
   double focus = 0, aperture = 1;
   int shape = STARFOCUS_SHAPE_FALL_OFF;
@@ -74,7 +75,8 @@ Bytes Rows(const starfocus_image& image) {
     size_t bytes = 0;
     starfocus_plane_size(&image, plane, kWidth, kHeight, &count, &bytes, nullptr);
     for (int32_t y = 0; y < count; ++y) {
-      const auto* row = static_cast<uint8_t*>(image.planes[plane]) + size_t(y) * image.strides[plane];
+      const auto* row =
+          static_cast<uint8_t*>(image.planes[plane]) + size_t(y) * image.strides[plane];
       rows.insert(rows.end(), row, row + bytes);
     }
   }
@@ -93,9 +95,16 @@ Bytes Expected(const GstVideoInfo& video, Bytes frame, const GstVideoInfo& depth
   const bool is_deep = GST_VIDEO_INFO_FORMAT(&depth) != GST_VIDEO_FORMAT_GRAY8;
   starfocus_light_field field = starfocus::NewLightField();
   field.views[0] = ImageOf(video, frame.data());
-  field.depth = {map.data(), size_t(depth.stride[0]), kMapWidth, kMapHeight,
-                 is_deep ? STARFOCUS_DEPTH_U16 : STARFOCUS_DEPTH_U8, STARFOCUS_DEPTH_LINEAR,
-                 16.0 / (is_deep ? 65535 : 255), -8, 0, 0};
+  field.depth = {map.data(),
+                 size_t(depth.stride[0]),
+                 kMapWidth,
+                 kMapHeight,
+                 is_deep ? STARFOCUS_DEPTH_U16 : STARFOCUS_DEPTH_U8,
+                 STARFOCUS_DEPTH_LINEAR,
+                 16.0 / (is_deep ? 65535 : 255),
+                 -8,
+                 0,
+                 0};
   starfocus::Params params;
   params.focus = lens.focus, params.aperture = lens.aperture, params.shape = lens.shape;
   Bytes out(frame.size());
@@ -185,7 +194,8 @@ class Pipeline {
 };
 
 void Set(GstElement* element, const Lens& lens) {
-  g_object_set(element, "focus", lens.focus, "aperture", lens.aperture, "shape", lens.shape, nullptr);
+  g_object_set(element, "focus", lens.focus, "aperture", lens.aperture, "shape", lens.shape,
+               nullptr);
 }
 
 const bool kIsLoaded = [] {
@@ -224,6 +234,25 @@ TEST_CASE("element: properties change the next picture, also to a larger blur") 
     pipeline.PushVideo(time);
     CHECK(pipeline.Pull(time) == pipeline.Refocused(200, lens));
     time += kFrame;
+  }
+}
+
+TEST_CASE("element: a control source moves the focus with the time of the frames") {
+  Pipeline pipeline(kVideo, kDepth);
+  GstControlSource* const pull = gst_interpolation_control_source_new();
+  g_object_set(pull, "mode", GST_INTERPOLATION_MODE_LINEAR, nullptr);
+  auto* const keys = GST_TIMED_VALUE_CONTROL_SOURCE(pull);
+  gst_timed_value_control_source_set(keys, 0, -8);
+  gst_timed_value_control_source_set(keys, 4 * kFrame, 8);
+  gst_object_add_control_binding(
+      GST_OBJECT(pipeline.element),
+      gst_direct_control_binding_new_absolute(GST_OBJECT(pipeline.element), "focus", pull));
+  gst_object_unref(pull);
+  pipeline.PushDepth(160, 0);
+  for (const int frame : {0, 1, 3}) {
+    pipeline.PushVideo(GstClockTime(frame) * kFrame);
+    const Bytes picture = pipeline.Pull(GstClockTime(frame) * kFrame);
+    CHECK(picture == pipeline.Refocused(160, {-8.0 + 4 * frame}));
   }
 }
 
