@@ -35,6 +35,9 @@ libsixel-bin             test   sixel2png
 openexr                  test   exrinfo
 python3-numpy            test   -
 python3-pil              test   -
+libgstreamer-plugins-base1.0-dev test -
+gstreamer1.0-plugins-base test  -
+gstreamer1.0-tools       test   gst-inspect-1.0
 clang                    fuzz   clang
 libclang-rt-14-dev       fuzz   -
 libbenchmark-dev         -      benchmark/benchmark.h

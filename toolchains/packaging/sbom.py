@@ -39,7 +39,7 @@ PACKAGES = {
     "libpng": "libpng-dev", "libdeflate": "libdeflate-dev", "libwebp": "libwebp-dev", "libsixel": "libsixel-dev",
     "libtiff": "libtiff-dev", "OpenEXR": "libopenexr-dev", "libheif": "libheif-dev", "libexif": "libexif-dev", "Expat": "libexpat1-dev",
     "libseccomp": "libseccomp-dev", "CLI11": "libcli11-dev", "nlohmann-json": "nlohmann-json3-dev",
-    "libgpiod": "libgpiod-dev",
+    "libgpiod": "libgpiod-dev", "GStreamer": "libgstreamer-plugins-base1.0-dev",
     "doctest": "doctest-dev", "Google Benchmark": "libbenchmark-dev",
 }
 
