@@ -103,7 +103,7 @@ GstFlowReturn FindDepth(GstStarfocus* self, GstClockTimeDiff time, bool is_late)
     if (start == GST_CLOCK_STIME_NONE) return Fail(self, "the depth has no timestamps");
     const bool lasts = GST_CLOCK_TIME_IS_VALID(duration) && !is_gap &&
                        time < start + static_cast<GstClockTimeDiff>(duration);
-    if (is_later || lasts) return GST_FLOW_OK;
+    if (self->map != nullptr && (is_later || lasts)) return GST_FLOW_OK;
     gst_aggregator_pad_drop_buffer(self->depth);
   }
   const bool is_last = gst_aggregator_pad_is_eos(self->depth);

@@ -128,6 +128,7 @@ class Pipeline {
     gst_harness_set_src_caps_str(at_video, video.c_str());
   }
   ~Pipeline() {
+    gst_bus_set_flushing(bus_, TRUE);  // frees messages, which refer to the element
     gst_harness_teardown(at_depth);
     gst_harness_teardown(at_video);
     gst_object_unref(element);
@@ -280,6 +281,15 @@ TEST_CASE("element: each frame has the last depth that starts before it") {
     }
     FAIL("the end of the stream did not pass");
   }
+}
+
+TEST_CASE("element: gaps contain no depth and no frame") {
+  Pipeline pipeline(kVideo, kDepth);
+  gst_harness_push_event(pipeline.at_depth, gst_event_new_gap(2 * kFrame, kFrame));
+  gst_harness_push_event(pipeline.at_video, gst_event_new_gap(0, kFrame));
+  pipeline.PushVideo(kFrame);
+  pipeline.PushDepth(160, 3 * kFrame);
+  CHECK(pipeline.Pull(kFrame) == pipeline.Refocused(160));
 }
 
 TEST_CASE("element: live video does not wait for late depth") {
