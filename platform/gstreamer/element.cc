@@ -222,7 +222,8 @@ GstClockTime NextTime(GstAggregator* aggregator) {
   gst_buffer_unref(video);
   if (self->map == nullptr || time < 0) return GST_CLOCK_TIME_NONE;
   const GstClockTime due = static_cast<GstClockTime>(time), frame = FrameDuration(self->video_info);
-  return GST_CLOCK_TIME_IS_VALID(frame) && due > frame ? due - frame : due;
+  if (!GST_CLOCK_TIME_IS_VALID(frame)) return due;
+  return due > frame ? due - frame : 0;
 }
 
 bool SetCaps(GstStarfocus* self, GstAggregatorPad* pad, GstCaps* caps) {

@@ -261,7 +261,7 @@ TEST_CASE("element: each frame has the last depth that starts before it") {
   for (const std::string& caps : {kDepth, kUnevenDepth}) {
     CAPTURE(caps);
     Pipeline pipeline(kVideo, caps);
-    pipeline.PushDepth(160, kFrame / 2);  // the first depth also serves earlier frames
+    pipeline.PushDepth(160, kFrame);  // the first depth also serves earlier frames
     pipeline.PushVideo(0);
     CHECK(pipeline.Pull(0) == pipeline.Refocused(160));
     pipeline.PushVideo(5 * kFrame);
@@ -296,15 +296,21 @@ TEST_CASE("element: live video does not wait for late depth") {
   Pipeline pipeline(kVideo, kUnevenDepth);
   gst_harness_use_testclock(pipeline.at_video);
   pipeline.PushDepth(160, 0);
-  for (const GstClockTime time : {GstClockTime(0), kFrame}) {
+  GstTestClock* const clock = gst_harness_get_testclock(pipeline.at_video);
+  for (const GstClockTime time : {kFrame, 3 * kFrame}) {
     pipeline.PushVideo(time);
     gst_harness_crank_single_clock_wait(pipeline.at_video);
     CHECK(pipeline.Pull(time) == pipeline.Refocused(160));
+    // The latency of the element is one frame, and all of it is left for refocusing.
+    const GstClockTime base = gst_element_get_base_time(pipeline.element);
+    CHECK(gst_clock_get_time(GST_CLOCK(clock)) - base == time);
   }
+  gst_object_unref(clock);
 }
 
 TEST_CASE("element: after a flush, earlier depth is not used") {
   Pipeline pipeline(kVideo, kDepth);
+  g_object_set(pipeline.element, "stabilise", TRUE, nullptr);  // which depends on earlier depth
   pipeline.PushDepth(160, 0);
   pipeline.PushVideo(0);
   pipeline.Pull(0);
@@ -347,8 +353,15 @@ TEST_CASE("element: stabilised depth depends on the frames before") {
   };
   CHECK(next(160, 0) == pipeline.Refocused(160));
   CHECK(next(220, kFrame) != pipeline.Refocused(220));
-  g_object_set(pipeline.element, "stabilise", FALSE, nullptr);
-  CHECK(next(220, 2 * kFrame) == pipeline.Refocused(220));
+  // Another scale of the disparities starts again.
+  g_object_set(pipeline.element, "disparity-black", 8.0, "disparity-white", -8.0, nullptr);
+  Bytes inverted = Surfaces(pipeline.depth_info, 220);
+  for (uint8_t& value : inverted) value = uint8_t(255 - value);
+  CHECK(next(220, 2 * kFrame) ==
+        Expected(pipeline.video_info, pipeline.frame, pipeline.depth_info, inverted, {}));
+  g_object_set(pipeline.element, "stabilise", FALSE, "disparity-black", -8.0, "disparity-white",
+               8.0, nullptr);
+  CHECK(next(220, 3 * kFrame) == pipeline.Refocused(220));
 }
 
 TEST_CASE("element: upstream may send only what downstream accepts") {
