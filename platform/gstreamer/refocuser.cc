@@ -179,12 +179,6 @@ bool Refocuser::Stabilise(const starfocus_config& config, starfocus_light_field*
   const starfocus_status status =
       starfocus_stabilise_disparity(stabiliser_, &callbacks, field, &to, nullptr);
   if (!Check(status, starfocus_stabiliser_problem(stabiliser_), problem)) return false;
-  // The stabiliser scales the map to the mean scale of the last maps, so disparities may leave the
-  // range of the grey values, for which the engine is configured.
-  const auto low = static_cast<float>(config.disparity_min);
-  const auto high = static_cast<float>(config.disparity_max);
-  const size_t count = width * static_cast<size_t>(config.height);
-  for (size_t i = 0; i < count; ++i) map_[i] = std::min(std::max(map_[i], low), high);
   field->depth = starfocus_depth_float(map_, to.disparity_stride, config.width, config.height);
   return true;
 }
