@@ -352,7 +352,7 @@ TEST_CASE("element: stabilised depth depends on the frames before") {
     return pipeline.Pull(time);
   };
   CHECK(next(160, 0) == pipeline.Refocused(160));
-  CHECK(next(220, kFrame) != pipeline.Refocused(220));
+  CHECK(next(168, kFrame) != pipeline.Refocused(168));
   // Another scale of the disparities starts again.
   g_object_set(pipeline.element, "disparity-black", 8.0, "disparity-white", -8.0, nullptr);
   Bytes inverted = Surfaces(pipeline.depth_info, 220);
