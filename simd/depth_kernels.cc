@@ -9,7 +9,6 @@
 #define STARFOCUS_TABLE DepthKernels
 #include "simd/match-inl.h"
 #include "simd/matting-inl.h"
-#include "simd/motion-inl.h"
 #include "simd/paths-inl.h"
 
 #define STARFOCUS_LIST STARFOCUS_DEPTH_KERNELS

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables of SIMD kernels. A table holds one pointer per kernel of a list, for one SIMD target.
-// There are five tables, in units of their own, and a program links only the tables that it uses.
+// There are six tables, in units of their own, and a program links only the tables that it uses.
 // `simd/table-inl.h` compiles a table for every target of `simd/targets.h`.
 //
 // Each kernel family x has two files. `x.h` contains the contracts, and beside each contract the
@@ -112,10 +112,7 @@
   KERNEL(PropagatePrior)                \
   KERNEL(AddPrior)                      \
   KERNEL(SumVotes)                      \
-  KERNEL(SmoothDisparity)               \
-  KERNEL(CompareSquares)                \
-  KERNEL(LimitBlock)                    \
-  KERNEL(FollowBlock)
+  KERNEL(SmoothDisparity)
 
 // List of the kernels that convert pictures and depth maps, which a program that only refocuses
 // packed RGB does not link.
@@ -148,6 +145,12 @@
   KERNEL(RgbToLumaWords)               \
   KERNEL(RgbToChromaWords)
 
+// List of the kernels for videos, which a program without a stabiliser does not link.
+#define STARFOCUS_VIDEO_KERNELS(KERNEL) \
+  KERNEL(CompareSquares)                \
+  KERNEL(LimitBlock)                    \
+  KERNEL(FollowBlock)
+
 namespace starfocus::simd {
 
 STARFOCUS_DECLARE_TABLE(Kernels, STARFOCUS_KERNELS)
@@ -155,6 +158,7 @@ STARFOCUS_DECLARE_TABLE(DepthKernels, STARFOCUS_DEPTH_KERNELS)
 STARFOCUS_DECLARE_TABLE(ImageKernels, STARFOCUS_IMAGE_KERNELS)
 STARFOCUS_DECLARE_TABLE(LineScanKernels, STARFOCUS_LINE_SCAN_KERNELS)
 STARFOCUS_DECLARE_TABLE(WordKernels, STARFOCUS_WORD_KERNELS)
+STARFOCUS_DECLARE_TABLE(VideoKernels, STARFOCUS_VIDEO_KERNELS)
 
 // Returns the table of the target with this name, or null if there is no such target. The
 // restrictions of KernelsOfTarget apply to FindKernels as well.

@@ -33,7 +33,7 @@ void HalveLuma(const LumaLevel& fine, const LumaLevel& coarse, const Range& rows
 
 // Compares a block of a level with blocks of the frame before.
 struct Matcher {
-  const simd::DepthKernels& kernels;
+  const simd::VideoKernels& kernels;
   const LumaLevel &before, &now;
   int32_t x, y;  // place of the compared square around the block
 
@@ -132,7 +132,7 @@ starfocus_status FillPyramid(const Plane<const uint8_t>& rgb, const LumaPyramid&
   return status;
 }
 
-starfocus_status FindMotion(const simd::DepthKernels& kernels, const LumaPyramid& before,
+starfocus_status FindMotion(const simd::VideoKernels& kernels, const LumaPyramid& before,
                             const LumaPyramid& now, const MotionField fields[kMotionLevels],
                             Jobs* jobs) {
   starfocus_status status = STARFOCUS_OK;

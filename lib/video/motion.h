@@ -61,7 +61,7 @@ starfocus_status FillPyramid(const Plane<const uint8_t>& rgb, const LumaPyramid&
 
 // Finds the motion of each block of the pyramid `now` since `before`. The motions of the picture
 // are those of fields[0].
-starfocus_status FindMotion(const simd::DepthKernels& kernels, const LumaPyramid& before,
+starfocus_status FindMotion(const simd::VideoKernels& kernels, const LumaPyramid& before,
                             const LumaPyramid& now, const MotionField fields[kMotionLevels],
                             Jobs* jobs);
 

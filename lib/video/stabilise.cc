@@ -160,7 +160,7 @@ void PadColours(const FullConfig& config, const Plane<uint8_t>& rgb) {
 void TakeStabiliser(const FullConfig& config, Arena* arena, Stabiliser* s) {
   const auto width = static_cast<size_t>(config.width), height = static_cast<size_t>(config.height);
   s->config = config;
-  s->kernels = &simd::BestDepthKernels();
+  s->kernels = &simd::BestVideoKernels();
   s->jobs = arena->Take<Jobs>(1);
   const auto bands = static_cast<size_t>(MotionBlocks(config.height));
   auto* const progress = arena->Take<std::atomic<uint32_t>>(ProgressWords(bands));

@@ -40,7 +40,7 @@ struct StabiliserReport {
 
 struct Stabiliser {
   FullConfig config;
-  const simd::DepthKernels* kernels;
+  const simd::VideoKernels* kernels;
   Jobs* jobs;
   StableFrame frames[2];
   int32_t current;  // index of the last frame

@@ -197,7 +197,7 @@ class CallMemory {
 };
 
 // A call to a kernel in a table of type `Table` (Kernels, DepthKernels, ImageKernels,
-// LineScanKernels or WordKernels).
+// LineScanKernels, VideoKernels or WordKernels).
 template <class Table>
 class CallOf : public CallMemory {
  public:
@@ -251,6 +251,7 @@ using KernelCall = CallOf<starfocus::simd::Kernels>;
 using DepthCall = CallOf<starfocus::simd::DepthKernels>;
 using ImageCall = CallOf<starfocus::simd::ImageKernels>;
 using LineScanCall = CallOf<starfocus::simd::LineScanKernels>;
+using VideoCall = CallOf<starfocus::simd::VideoKernels>;
 using WordCall = CallOf<starfocus::simd::WordKernels>;
 
 }  // namespace test

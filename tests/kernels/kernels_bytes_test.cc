@@ -85,6 +85,8 @@ TEST_CASE("kernels: every target returns the bits of the reference and writes no
                test::DepthTargets());
   CheckKernels(test::image_cases::kAll, ReferenceImageKernels(), BestImageKernels(),
                test::ImageTargets());
+  CheckKernels(test::video_cases::kAll, ReferenceVideoKernels(), BestVideoKernels(),
+               test::VideoTargets());
   CheckKernels(test::word_cases::kAll, ReferenceWordKernels(), BestWordKernels(),
                test::WordTargets());
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test and benchmark calls of the kernels that match views (simd/match.h) and choose labels
-// (simd/paths.h).
+// Test and benchmark calls of the kernels that match views (simd/match.h), choose labels
+// (simd/paths.h), and follow the pixels of videos (simd/motion.h).
 #include <algorithm>
 #include <vector>
 
@@ -222,7 +222,7 @@ void AddPrior(Draw* draw, DepthCall* call) {
 
 }  // namespace test::depth_cases
 
-namespace test::depth_cases {
+namespace test::video_cases {
 namespace {
 
 constexpr size_t kSquareStride = 70;
@@ -240,20 +240,20 @@ std::pair<std::vector<uint8_t>, std::vector<uint8_t>> Alike(size_t count, Draw* 
 
 }  // namespace
 
-void CompareSquares(Draw* draw, DepthCall* call) {
+void CompareSquares(Draw* draw, VideoCall* call) {
   const auto [a, b] = Alike(15 * kSquareStride + kCompared, draw);
   const uint8_t *of_a = call->Input("a", a), *of_b = call->Input("b", b);
-  call->Calls(&DepthKernels::CompareSquares, of_a, of_b, kSquareStride);
+  call->Calls(&VideoKernels::CompareSquares, of_a, of_b, kSquareStride);
 }
 
-void LimitBlock(Draw* draw, DepthCall* call) {
+void LimitBlock(Draw* draw, VideoCall* call) {
   const auto colours = RandomBytes(9 * kSquareStride + 30, draw);
   const uint8_t* rgb = call->Input("rgb", colours) + kSquareStride + 3;
   auto* limits = call->Results<uint16_t>("limits", kFollowed * kFollowed);
-  call->Calls(&DepthKernels::LimitBlock, rgb, kSquareStride, uint16_t(draw->Int(0, 32767)), limits);
+  call->Calls(&VideoKernels::LimitBlock, rgb, kSquareStride, uint16_t(draw->Int(0, 32767)), limits);
 }
 
-void FollowBlock(Draw* draw, DepthCall* call) {
+void FollowBlock(Draw* draw, VideoCall* call) {
   const auto [now, before] = Alike(9 * kSquareStride + 30, draw);
   const size_t stride = draw->Size(8, 20, 8), count = 7 * stride + 8;
   FollowedBlock block = {};
@@ -271,7 +271,7 @@ void FollowBlock(Draw* draw, DepthCall* call) {
     costs[n] = draw->Rarely(3) ? kNoCost : uint16_t(draw->Int(0, 7100));
     choices[n] = uint16_t(draw->Int(0, 8));
   }
-  call->Calls(&DepthKernels::FollowBlock, block, limits, uint16_t{9}, costs, choices);
+  call->Calls(&VideoKernels::FollowBlock, block, limits, uint16_t{9}, costs, choices);
 }
 
-}  // namespace test::depth_cases
+}  // namespace test::video_cases

@@ -17,6 +17,7 @@
 #include "tests/programs/session.h"
 #include "tests/support/error_line.h"
 #include "tests/support/temp_folder.h"
+#include "tests/support/test_scene.h"
 
 namespace starfocus::stream_test {
 namespace {
@@ -63,9 +64,9 @@ TEST_CASE("stream: a header that cannot be read is an error with its cause") {
       {"YUV4MPEG2 W2 H2 C420p12", "of 8 or 10 bits, found C420p12"},
       {"YUV4MPEG2 W2 H2 F25", "a frame rate such as F30:1, found F25"},
       {"YUV4MPEG2 W2 H2 A1:", "an aspect such as A1:1, found A1:"}};
-  for (const auto& [line, text] : kErrors) {
-    CAPTURE(line);
-    CHECK(Contains(ErrorOfHeader(line), text));
+  for (const auto& row : kErrors) {
+    CAPTURE(row.first);
+    CHECK(Contains(ErrorOfHeader(row.first), row.second));
   }
 }
 
@@ -136,14 +137,14 @@ TEST_CASE("stream: damaged streams are errors that name the frame") {
       {header + frame + "FRAME", "a line FRAME of at most 1024 bytes with a line break"},
       {header + frame + "FRAME\n123",
        "expected 6 bytes of frame 1, found the end of the stream after 3"}};
-  for (const auto& [bytes, text] : kErrors) {
-    CAPTURE(text);
-    Write(path, bytes);
+  for (const auto& row : kErrors) {
+    CAPTURE(row.second);
+    Write(path, row.first);
     Y4mReader reader;
     Error error = reader.Open(path);
     std::vector<uint8_t> planes;
     for (int k = 0; k < 3 && !error; ++k) error = reader.Next(&planes).error();
-    CHECK(Contains(error.line(), text));
+    CHECK(Contains(error.line(), row.second));
   }
 }
 

@@ -33,6 +33,9 @@ inline std::vector<const starfocus::simd::ImageKernels*> ImageTargets() {
 inline std::vector<const starfocus::simd::LineScanKernels*> LineScanTargets() {
   return ListTargets(starfocus::simd::LineScanKernelsOfTarget);
 }
+inline std::vector<const starfocus::simd::VideoKernels*> VideoTargets() {
+  return ListTargets(starfocus::simd::VideoKernelsOfTarget);
+}
 inline std::vector<const starfocus::simd::WordKernels*> WordTargets() {
   return ListTargets(starfocus::simd::WordKernelsOfTarget);
 }
