@@ -47,7 +47,7 @@ struct ClippedSamples {
 // brightest sample that the target can store.
 std::string Describe(const ClippedSamples& clipped, const std::string& limit);
 
-// Numbers of pixels with light that the engine does not refocus as it is.
+// Numbers of pixels whose light the engine replaces.
 struct UnusableLight {
   int64_t not_a_number = 0;  // Counts as black.
   int64_t negative = 0;      // Counts as black.

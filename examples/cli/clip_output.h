@@ -26,7 +26,7 @@ class ClipOutput {
  public:
   virtual ~ClipOutput() = default;
 
-  // Writes the picture of the next frame. Returns false if nobody reads the output any more.
+  // Writes the picture of the next frame. Returns false if the reader of a pipe has closed it.
   virtual Result<bool> Write(const ClipFrame& frame) = 0;
   // Completes the output after all frames.
   virtual Error Finish() { return {}; }

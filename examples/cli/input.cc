@@ -227,7 +227,7 @@ struct CommandRun {
   }
 };
 
-// Prints a note about light that the engine does not refocus as it is.
+// Prints a note about pixels whose light the engine replaces.
 void TellUnusable(const Capture& capture) {
   UnusableLight counts;
   for (const DeepImage& view : capture.light_field.deep) CountUnusable(view, &counts);

@@ -28,13 +28,13 @@ struct ClipFrame {
   std::shared_ptr<const EngineResult> result;  // null before the frame is refocused
 };
 
-// A stage of the processing. Returns false to end the video: before this frame in the first stage,
-// which reads frames, or without an error in another stage, as when nobody reads the output.
+// A stage of the processing. Returns false to end the video without an error. The first stage,
+// which reads frames, does so after the last frame, and the last stage when its output is closed.
 using Stage = std::function<Result<bool>(ClipFrame* frame)>;
 
 // Runs the stages until the first stage has no more frame. If a stage fails, the frames before the
 // failing frame still pass through the following stages. Returns the error of the earliest frame.
-// At most two frames for each stage are in memory.
+// The memory contains at most two frames for each stage.
 // @param overlap true: each stage has a thread of its own
 Error RunStages(const std::vector<Stage>& stages, bool overlap);
 

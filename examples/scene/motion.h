@@ -12,11 +12,12 @@
 
 namespace starfocus {
 
-// Returns a scene as it is at a frame, from 0 on, with more samples per pixel, so that textures do
-// not shimmer. At frame 0, everything is where it is in the scene. The camera turns and
-// moves, so that all scenes change. The foreground moves in parallel to the picture and turns about
-// the first of the scene's points, which moves with it. All movements return to their beginning
-// after 1 to 2 seconds at 60 frames per second, and textures move with their surfaces.
+// Returns a scene at the time of a frame; the first frame is 0. The scene has more samples per
+// pixel, so that textures do not shimmer. At frame 0, everything is where it is in the scene. The
+// camera turns and moves, so that all scenes change. The foreground moves in parallel to the
+// picture and turns about the first of the scene's points, which moves with it. All movements
+// return to their beginning after 1 to 2 seconds at 60 frames per second, and textures move with
+// their surfaces.
 Scene SceneAt(const Scene& scene, int frame);
 
 // Largest changes of an unstable map, in pixels: of disparities by noise and by the offset of a

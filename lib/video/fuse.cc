@@ -101,10 +101,11 @@ void RelateRows(const Fusion& f, const Range& rows) {
       // Most pixels are on their surface.
       const int32_t step = Drifted(f.of_map, given[x]) - Drifted(f.of_before, known[x]);
       const bool is_same = (count[x] != 0) & (step <= f.tolerance) & (step >= -f.tolerance);
-      relations[x] = is_same ? uint8_t{1} : uint8_t{0};
+      relations[x] = static_cast<uint8_t>(is_same ? Relation::kSame : Relation::kNew);
     }
     for (int32_t x = 0; x < f.width; ++x) {
-      if (relations[x] == 0) relations[x] = static_cast<uint8_t>(RelationOf(f, x, y));
+      if (static_cast<Relation>(relations[x]) == Relation::kSame) continue;
+      relations[x] = static_cast<uint8_t>(RelationOf(f, x, y));
     }
   }
 }

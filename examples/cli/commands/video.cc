@@ -50,7 +50,8 @@ std::vector<std::string> FilesOf(const VideoOptions& options, const Video& video
   return files;
 }
 
-// Returns the names of the pictures in an output folder, as far as they are known.
+// Returns the names of the pictures in an output folder. Streams without a known number of frames
+// have no names yet.
 std::vector<std::string> PicturesOf(const Video& video) {
   std::vector<std::string> pictures;
   for (const FrameSource& frame : video.sources) pictures.push_back(frame.picture);
@@ -179,7 +180,7 @@ class Refocusing {
 
 struct Written {
   size_t frames = 0;
-  bool is_closed = false;  // true: nobody reads the output any more
+  bool is_closed = false;  // true: the reader of a pipe has closed it
   std::string report;
 };
 
