@@ -109,7 +109,8 @@ STARFOCUS_API starfocus_status starfocus_stabilise_disparity(starfocus_stabilise
 
 /** A subject that the focus follows. */
 typedef struct starfocus_track {
-  int32_t x, y; /**< Point of the subject in the picture, pixels. */
+  int32_t x;    /**< Column of the subject's point in the picture, pixels. */
+  int32_t y;    /**< Row of that point. */
   double focus; /**< Disparity of the subject, for starfocus_params.focus. */
   int32_t lost; /**< Number of frames since the subject was last found; 0: it was found in the last
                      frame. While it is lost, the other fields keep their values. */
