@@ -15,7 +15,7 @@ constexpr int32_t kMostVotes = 4;
 // Largest number of frames of the mean of coverage.
 constexpr int32_t kMostCovers = 3;
 // Largest distance of wrong pixels of a map from its outlines, in pixels.
-constexpr int32_t kOutline = 3;
+constexpr int32_t kOutline = 5;
 // Pixels within this distance of each other decide together whether they keep their surfaces, so
 // that outlines stay smooth.
 constexpr int32_t kTogether = 3;

@@ -81,7 +81,7 @@ typedef struct starfocus_stabiliser_report {
  *  Each pixel follows the best of the motions around it, which are those of blocks of 8 x 8 pixels.
  *  The scale of the map becomes the mean scale of about 8 maps. The disparity of a pixel becomes
  *  the mean of about 8 disparities that were measured on its surface. Where a map shows another
- *  surface than the maps before it, within 3 pixels of its outlines, the surface with more
+ *  surface than the maps before it, within 5 pixels of its outlines, the surface with more
  *  measurements wins, and the other surface at the latest in the fifth such map: an outline that is
  *  wrong in a single map does not move. Farther away, the map decides. Unknown disparities become
  *  those of the frame before, or NaN if these are unknown, too.
