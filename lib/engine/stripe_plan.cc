@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "lib/engine/stripe.h"
+#include "lib/io/deep.h"
 #include "lib/io/highlights.h"
 
 namespace starfocus {
@@ -52,6 +53,23 @@ void FindPasses(const EngineState& engine, const Rect& rect, Block* blocks, int3
     blocks[k].passes[kLightPass] = true;
     blocks[k].passes[kExcessPass] = excess;
     blocks[k].passes[kAlphaPass] = alpha;
+  }
+}
+
+// Finds the cells of a deep picture that show light beyond white where the blur radius varies,
+// marks a depth edge there, and renders them at layer 0.
+void MarkLamps(const EngineState& engine, int32_t row, const Range& columns) {
+  const Plane<uint16_t>& light = engine.rings.deep[0];
+  for (int32_t column = columns.first; column < columns.last; ++column) {
+    const Rect cell = {column * kCellSize, row * kCellSize, kCellSize, kCellSize};
+    const Rect around =
+        Clipped(Extended(cell, {kCellBorder, kCellBorder, kCellBorder, kCellBorder}),
+                engine.config.width, engine.config.height);
+    const auto is_lamp = [&](int32_t x, int32_t y) { return IsBeyondWhite(light.Row(y) + 3 * x); };
+    if (!IsUneven(engine.input, engine.lens.scale, around) || !AnyPixel(around, is_lamp)) continue;
+    Cell& marked = *engine.stripe.cells.At(column, row);
+    marked.has_edge = 1;
+    marked.r_shown = 0;
   }
 }
 
@@ -238,11 +256,13 @@ bool ChooseColumns(const Range& rows, EngineState* engine) {
 
 starfocus_status PlanStripe(const Range& rows, EngineState* engine) {
   const Lens& lens = engine->lens;
+  bool has_lamps = false;
   if (engine->input.is_deep()) {
     // The excess of the brightest light of the stripe fits into 14 bits, or 15 if it is larger.
     const LightTile tiles =
         TilesAround(*engine, {0, rows.first, engine->config.width, rows.count()});
     engine->stripe.excess_shift = Max(0, 14 - tiles.excess_bits);
+    has_lamps = tiles.excess_bits != 0;
   }
   StripePlan& plan = engine->stripe.plan;
   if (IsPartitioned(lens)) {
@@ -258,6 +278,7 @@ starfocus_status PlanStripe(const Range& rows, EngineState* engine) {
       for (int32_t row = first_row; row < cells.last_row; ++row) {
         MeasureCells(*engine->kernels, engine->input, lens.scale, row, {first, last},
                      cells.At(first, row));
+        if (has_lamps) MarkLamps(*engine, row, {first, last});
       }
     };
     const starfocus_status status = ForEach(plan.columns, engine->jobs, measure);

@@ -221,6 +221,16 @@ void MeasureCells(const simd::Kernels& kernels, const Input& input, const BlurSc
   }
 }
 
+bool IsUneven(const Input& input, const BlurScale& scale, const Rect& rect) {
+  int32_t low = INT32_MAX, high = INT32_MIN;
+  ForPixels(rect, [&](int32_t x, int32_t y) {
+    const int32_t disparity = scale.focus.WithoutRange(input.disparity.Row(y)[x]);
+    low = Min(low, disparity);
+    high = Max(high, disparity);
+  });
+  return scale.step * (high - low) > int64_t{kLampRange} << kStepBits;
+}
+
 BlockStats MergeBlocks(const BlockStats* const children[4], int32_t side) {
   BlockStats merged = {INT32_MAX, INT32_MAX, 0, false, {}, {}};
   for (int child = 0; child < 4; ++child) {

@@ -105,6 +105,14 @@ inline constexpr int32_t kCellBorder = 1;
 void MeasureCells(const simd::Kernels& kernels, const Input& input, const BlurScale& scale,
                   int32_t row, const Range& columns, Cell* cells);
 
+// Largest variation of blur radii (kDisparityBits) of a surface that shows light beyond white. A
+// lamp is much brighter than the surface around it, so that the light which a blur of a slightly
+// different radius spreads around it is visible.
+inline constexpr int32_t kLampRange = (1 << kDisparityBits) / 4;
+
+// Returns true if the blur radii of the pixels of a rectangle vary by more than kLampRange.
+bool IsUneven(const Input& input, const BlurScale& scale, const Rect& rect);
+
 // Number of pixels of a layer that upsampling by two reads beyond each side of a block.
 inline constexpr int32_t kUpBorder = 2;
 

@@ -222,6 +222,31 @@ TEST_CASE("deep: light beyond white is refocused like light below it") {
   }
 }
 
+// A black wall is as dark in focus as out of focus, so the map of the wall does not matter.
+TEST_CASE("deep: a lamp a little nearer than a wall is blurred by its own radius") {
+  constexpr int kSide = 64;
+  const auto is_lamp = [](int x, int y) { return (x - 32) * (x - 32) + (y - 32) * (y - 32) < 20; };
+  const auto refocused = [&](float wall) {
+    test::Scene scene = test::EmptyScene(kSide, kSide, 1, 0, 1);
+    test::SetDisparity(&scene, [&](int x, int y) { return is_lamp(x, y) ? 1.0F : wall; });
+    DeepField field(scene, STARFOCUS_FORMAT_RGB_HALF,
+                    [](uint16_t* to, const uint8_t*) { std::fill_n(to, 3, uint16_t{0}); });
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        if (is_lamp(x, y)) std::fill_n(field.views[0].At(x, y), 3, test::DepthMemory::HalfOf(60));
+      }
+    }
+    test::Engine engine(DeepConfig(scene));
+    return Refocused(&engine, test::Params(8, 1, STARFOCUS_MODE_BLOCK), &field,
+                     STARFOCUS_FORMAT_RGB_HALF);
+  };
+  Words alone = refocused(1), before_wall = refocused(0);
+  for (const int x : {32, 36, 40}) {
+    const double expected = HalfToLight(alone.At(x, 32)[0]);
+    CHECK(HalfToLight(before_wall.At(x, 32)[0]) == doctest::Approx(expected).epsilon(0.04));
+  }
+}
+
 // A picture of P010 or P210.
 struct Yuv {
   Yuv(int w, int h, int f, int matrix = 0, int range = 0)
