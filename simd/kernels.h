@@ -138,9 +138,10 @@
   KERNEL(FindRuns)                          \
   KERNEL(Blend)
 
-// List of the kernels that convert YUV of more than 8 bits, which a program without
+// List of the kernels that convert pictures of more than 8 bits, which a program without
 // STARFOCUS_DEEP does not link.
 #define STARFOCUS_WORD_KERNELS(KERNEL) \
+  KERNEL(DitherWords)                  \
   KERNEL(YuvWordsToRgb)                \
   KERNEL(RgbToLumaWords)               \
   KERNEL(RgbToChromaWords)

@@ -8,6 +8,7 @@ namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR  // scalar vectors have one lane and cannot hold a pair
+using reference::DitherWords;
 using reference::RgbToChromaWords;
 using reference::RgbToLumaWords;
 using reference::YuvWordsToRgb;
@@ -131,6 +132,64 @@ inline void RgbToChromaWords(const uint16_t* HWY_RESTRICT upper, const uint16_t*
     hn::StoreU(JoinWords(TenBitWord(hn::Add(grey, u)), TenBitWord(hn::Add(grey, v))), d16, uv + n);
   });
   reference::RgbToChromaWords(upper + 3 * done, lower + 3 * done, count - done, m, uv + done);
+}
+
+// Half a group of pixels of one channel.
+using HalfGroup = hn::FixedTag<uint16_t, kDitherColumns / 2>;
+using HalfGroupVec = hn::Vec<HalfGroup>;
+
+HWY_INLINE HalfGroupVec Fine(HalfGroupVec codes) {
+  return hn::Sub(codes, hn::ShiftRight<8>(codes));
+}
+
+// Dithers one channel of a group of two halves, in units of 1/256 of an 8-bit code.
+HWY_INLINE void DitherGroup(HalfGroupVec more, HalfGroupVec& left, HalfGroupVec& right) {
+  const HalfGroup d16;
+  const auto start = hn::Broadcast<0>(left), range = hn::Set(d16, kDitherRange);
+  const auto round = hn::Set(d16, kDitherRound);
+  const auto beyond = [&](HalfGroupVec half) HWY_ATTR {
+    const auto change = hn::Or(hn::SaturatedSub(half, start), hn::SaturatedSub(start, half));
+    return hn::SaturatedSub(change, range);
+  };
+  const bool smooth = AllZero(d16, hn::Or(beyond(left), beyond(right)));
+  if (!smooth) more = round;
+  const auto code = [&](HalfGroupVec half) HWY_ATTR {
+    const auto dark = hn::SaturatedSub(hn::Set(d16, kDitherDark), hn::ShiftRight<7>(half));
+    const auto snap = hn::Add(hn::Set(d16, kDitherSnap), dark);
+    const auto rest = hn::And(hn::Add(half, snap), hn::Set(d16, 255));
+    const auto near = hn::Eq(hn::SaturatedSub(rest, hn::Add(snap, snap)), hn::Zero(d16));
+    return hn::ShiftRight<8>(hn::Add(half, hn::IfThenElse(near, round, more)));
+  };
+  left = code(left);
+  right = code(right);
+}
+
+inline void DitherWords(const uint16_t* HWY_RESTRICT rgb, size_t count,
+                        const uint16_t* HWY_RESTRICT more, uint8_t* HWY_RESTRICT out) {
+  const HalfGroup d16;
+  const hn::RebindToSigned<HalfGroup> di16;
+  const hn::Rebind<uint8_t, HalfGroup> d8;
+  constexpr size_t kHalf = kDitherColumns / 2;
+  const auto added = hn::LoadU(d16, more);
+  const auto store = [&](HalfGroupVec r, HalfGroupVec g, HalfGroupVec b, uint8_t* to) HWY_ATTR {
+    hn::StoreInterleaved3(hn::DemoteTo(d8, hn::BitCast(di16, r)),
+                          hn::DemoteTo(d8, hn::BitCast(di16, g)),
+                          hn::DemoteTo(d8, hn::BitCast(di16, b)), d8, to);
+  };
+  size_t n = 0;
+  for (; n + kDitherColumns <= count; n += kDitherColumns) {
+    HalfGroupVec r, g, b, right_r, right_g, right_b;
+    hn::LoadInterleaved3(d16, rgb + 3 * n, r, g, b);
+    hn::LoadInterleaved3(d16, rgb + 3 * (n + kHalf), right_r, right_g, right_b);
+    r = Fine(r), g = Fine(g), b = Fine(b);
+    right_r = Fine(right_r), right_g = Fine(right_g), right_b = Fine(right_b);
+    DitherGroup(added, r, right_r);
+    DitherGroup(added, g, right_g);
+    DitherGroup(added, b, right_b);
+    store(r, g, b, out + 3 * n);
+    store(right_r, right_g, right_b, out + 3 * (n + kHalf));
+  }
+  reference::DitherWords(rgb + 3 * n, count - n, more, out + 3 * n);
 }
 
 #endif

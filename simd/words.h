@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels that convert between 16-bit codes of R, G, B and luma with chroma of 16 bits, whose
-// samples of U and V alternate. Codes and samples are words; the white of codes is 65535. The
+// SIMD kernels that convert 16-bit codes of R, G, B to codes of 8 bits, and from and to luma with
+// chroma of 16 bits, whose samples of U and V alternate. Codes and samples are words; the white of
+// codes is 65535. The
 // matrix is that of 8 bits (pixels.h). With limited range, black is 16 * 256 and white 235 * 256;
 // with full range, white is 1023 * 64, the largest word of 10 bits.
 #ifndef STARFOCUS_SIMD_WORDS_H_
@@ -19,6 +20,18 @@ namespace starfocus::simd {
 // 1023 * 64 of full range.
 constexpr int32_t MoreOfWords(const YuvMatrix& m) { return m.black == 0 ? 63 : 256; }
 constexpr int32_t MoreOfCodes(const YuvMatrix& m) { return m.black == 0 ? -63 : -255; }
+
+// Columns of a group of pixels that are dithered or rounded together.
+inline constexpr size_t kDitherColumns = 16;
+// A channel of a group is dithered if its codes differ from the first by at most this, in units of
+// 1/256 of an 8-bit code. A band of one code is then at least 32 pixels wide. Where codes change
+// faster, rounding makes no bands, and dithering would only add noise.
+inline constexpr uint16_t kDitherRange = 128;
+// Fine codes f that are at most kDitherSnap from a code of 8 bits are rounded, so that a flat
+// picture stays flat. In the dark, this is max(0, kDitherDark - f / 128) more: a level of light is
+// up to a tenth of a code there. Unit: 1/256 of an 8-bit code.
+inline constexpr uint16_t kDitherSnap = 16, kDitherDark = 64;
+inline constexpr uint16_t kDitherRound = 128;  // added before dropping 8 bits
 
 namespace reference {
 
@@ -83,6 +96,34 @@ STARFOCUS_REFERENCE void RgbToChromaWords(const uint16_t* upper, const uint16_t*
     const int32_t sum_u = r * m.ur + g * m.ug + b * m.ub, sum_v = r * m.vr + g * m.vg + b * m.vb;
     uv[2 * n] = TenBitWord(32768 + ScaledWord((sum_u + (1 << 14)) >> 15, MoreOfCodes(m)));
     uv[2 * n + 1] = TenBitWord(32768 + ScaledWord((sum_v + (1 << 14)) >> 15, MoreOfCodes(m)));
+  }
+}
+
+// Returns a 16-bit code in units of 1/256 of an 8-bit code; 257 c becomes 256 c.
+inline uint16_t FineCode(uint16_t code) { return static_cast<uint16_t>(code - (code >> 8)); }
+
+// Converts `count` pixels, whose first begins a group of kDitherColumns pixels, to 8-bit codes. The
+// code of a fine code f is (f + more[n % 8]) >> 8 for column n of a smooth group, and (f +
+// kDitherRound) >> 8 in other groups and next to 8-bit codes. more[k] <= 255.
+STARFOCUS_REFERENCE void DitherWords(const uint16_t* rgb, size_t count, const uint16_t* more,
+                                     uint8_t* out) {
+  for (size_t first = 0; first < count; first += kDitherColumns) {
+    const size_t end = count - first < kDitherColumns ? count : first + kDitherColumns;
+    for (size_t c = 0; c < 3; ++c) {
+      const int32_t start = FineCode(rgb[3 * first + c]);
+      bool smooth = true;
+      for (size_t n = first; n < end; ++n) {
+        const int32_t change = FineCode(rgb[3 * n + c]) - start;
+        smooth = smooth && change <= kDitherRange && change >= -kDitherRange;
+      }
+      for (size_t n = first; n < end; ++n) {
+        const uint32_t fine = FineCode(rgb[3 * n + c]);
+        const uint32_t dark = fine >> 7 < kDitherDark ? kDitherDark - (fine >> 7) : 0;
+        const uint32_t snap = kDitherSnap + dark;
+        const bool dithers = smooth && ((fine + snap) & 255) > 2 * snap;
+        out[3 * n + c] = static_cast<uint8_t>((fine + (dithers ? more[n % 8] : kDitherRound)) >> 8);
+      }
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include "lib/engine/stripe.h"
 #include "lib/io/deep.h"
 #include "lib/io/highlights.h"
+#include "simd/words.h"
 
 namespace starfocus {
 namespace {
@@ -121,7 +122,10 @@ int32_t PlanBlocks(const EngineState& engine, const Rect& superblock, const Scra
 bool IsInRegion(const EngineState& engine, const Rect& rect) {
   const Rect& region = engine.lens.region;
   const int32_t reach = engine.lens.borders.deblocked;
-  return rect.x - reach < region.x + region.width && region.x < rect.x + rect.width + reach &&
+  // Deep pictures of 8 bits are dithered in groups of columns, which begin where blocks may begin.
+  static_assert(simd::kDitherColumns == kSmallestBlock);
+  const int32_t across = reach + (HasDeep(engine.config) ? kSmallestBlock - 1 : 0);
+  return rect.x - across < region.x + region.width && region.x < rect.x + rect.width + across &&
          rect.y - reach < region.y + region.height && region.y < rect.y + rect.height + reach;
 }
 

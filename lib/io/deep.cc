@@ -128,10 +128,15 @@ void ReadYuvCodes(const ImageSource& image, int32_t x, int32_t y, int32_t count,
   }
 }
 
-void ReadByteCodes(const ImageSource& image, int32_t x, int32_t y, int32_t count, uint16_t* rgb) {
-  uint8_t bytes[3 * kPiece];
-  ReadCodes(simd::BestImageKernels(), image, x, y, count, bytes);
-  for (int32_t n = 0; n < 3 * count; ++n) rgb[n] = static_cast<uint16_t>(257 * bytes[n]);
+void ReadBytes(const DeepTables& tables, const ImageSource& image, int32_t x, int32_t y,
+               int32_t count, uint16_t* rgb) {
+  uint8_t room[3 * kPiece];
+  for (int32_t n = 0, some; n < count; n += some) {
+    some = image.IsPacked() ? count : Min(kPiece, count - n);
+    const uint8_t* bytes = image.IsPacked() ? image.Pixel(x, y) : room;
+    if (!image.IsPacked()) ReadCodes(simd::BestImageKernels(), image, x + n, y, some, room);
+    for (int32_t k = 0; k < 3 * some; ++k) rgb[3 * n + k] = tables.decode_bytes[bytes[k]];
+  }
 }
 
 // Multiplies the light of a pixel by its alpha.
@@ -169,18 +174,17 @@ void Unmultiply(const uint16_t* rgb, int32_t alpha, uint16_t* straight) {
   }
 }
 
-// Returns the 8-bit code of a 16-bit code at pixel (x, y). Codes between two 8-bit codes are
-// dithered with an 8 x 8 threshold matrix, so that the mean of a smooth area is right. Codes within
-// a sixteenth of an 8-bit code are rounded, so that a flat picture stays flat.
-uint8_t Dithered(uint32_t code, uint32_t x, uint32_t y) {
-  constexpr uint32_t kSnap = 256 / 16;
-  const uint32_t fine = (code * 65280 + 32767) / 65535, whole = fine >> 8, rest = fine & 255;
-  if (rest <= kSnap || rest >= 256 - kSnap) return static_cast<uint8_t>((fine + 128) >> 8);
-  // Bayer's matrix: the bits of x ^ y and of y, interleaved, lowest bits first.
-  const uint32_t d = x ^ y;
-  const uint32_t rank =
-      (d & 1) << 5 | (y & 1) << 4 | (d & 2) << 2 | (y & 2) << 1 | (d & 4) >> 1 | (y & 4) >> 2;
-  return static_cast<uint8_t>(whole + (rest > 4 * rank + 2 ? 1 : 0));
+// Sets more[k] to what is added to codes of column k of 8 in row y before their lower 8 bits are
+// dropped (DitherWords): the thresholds of Bayer's matrix, so that the mean of a smooth area is
+// right.
+void FillThresholds(uint32_t y, uint16_t* more) {
+  for (uint32_t x = 0; x < 8; ++x) {
+    // The rank in the matrix has the bits of x ^ y and of y, interleaved, lowest bits first.
+    const uint32_t d = x ^ y;
+    const uint32_t rank =
+        (d & 1) << 5 | (y & 1) << 4 | (d & 2) << 2 | (y & 2) << 1 | (d & 4) >> 1 | (y & 4) >> 2;
+    more[x] = static_cast<uint16_t>(253 - 4 * rank);
+  }
 }
 
 }  // namespace
@@ -192,6 +196,7 @@ void FillDeepTables(int32_t transfer, DeepTables* tables) {
     tables->encode_half[code] = HalfOfLight(LightOfDeep(static_cast<int32_t>(code)));
     tables->decode_half[code] = code < 0x8000 ? DeepOfLight(LightOfHalf(code)) : uint16_t{0};
   }
+  for (int code = 0; code < 256; ++code) tables->decode_bytes[code] = tables->decode[257 * code];
   FillEncode(transfer, tables->encode);
 }
 
@@ -221,11 +226,11 @@ void ReadDeep(const DeepTables& tables, const ImageSource& image, int32_t x, int
   if (IsDeep(format) && !image.is_yuv) {
     return ReadWords(tables, image, x, y, count, rgb, alpha);
   }
-  const auto read = IsDeep(format) ? ReadYuvCodes : ReadByteCodes;
+  if (!IsDeep(format)) return ReadBytes(tables, image, x, y, count, rgb);
   for (int32_t n = 0; n < count; n += kPiece) {
     uint16_t codes[3 * kPiece];
     const int32_t some = Min(kPiece, count - n);
-    read(image, x + n, y, some, codes);
+    ReadYuvCodes(image, x + n, y, some, codes);
     LookUp(tables.decode, codes, 3, some, rgb + 3 * n, 3);
   }
 }
@@ -271,18 +276,22 @@ void WriteDeepYuv(const DeepTables& tables, const uint16_t* const rows[2], const
   }
 }
 
-void DitherRow(const DeepTables& tables, const DeepRow& row, int32_t x, int32_t y, int32_t count,
+void DitherRow(const DeepTables& tables, const DeepRow& row, int32_t y, int32_t count,
                bool straight, uint8_t* rgb) {
-  for (int32_t n = 0; n < count; ++n) {
-    uint16_t pixel[3];
-    std::memcpy(pixel, row.rgb + 3 * n, sizeof pixel);
-    if (straight && row.alpha != nullptr && row.alpha[n] != kLightWhite) {
-      Unmultiply(row.rgb + 3 * n, row.alpha[n], pixel);
+  static_assert(kPiece % simd::kDitherColumns == 0);
+  uint16_t more[8];
+  FillThresholds(static_cast<uint32_t>(y), more);
+  straight = straight && !AreAll(row.alpha, count, 1, kLightWhite);
+  for (int32_t n = 0; n < count; n += kPiece) {
+    uint16_t codes[3 * kPiece];
+    const int32_t some = Min(kPiece, count - n);
+    LookUp(tables.encode, row.rgb + 3 * n, 3, some, codes, 3);
+    for (int32_t k = 0; straight && k < some; ++k) {
+      uint16_t pixel[3];
+      Unmultiply(row.rgb + 3 * (n + k), row.alpha[n + k], pixel);
+      LookUp(tables.encode, pixel, 3, 1, codes + 3 * k, 3);
     }
-    for (int c = 0; c < 3; ++c) {
-      rgb[3 * n + c] =
-          Dithered(tables.encode[pixel[c]], static_cast<uint32_t>(x + n), static_cast<uint32_t>(y));
-    }
+    simd::BestWordKernels().DitherWords(codes, static_cast<size_t>(some), more, rgb + 3 * n);
   }
 }
 

@@ -42,6 +42,7 @@ inline bool IsBeyondWhite(const uint16_t* rgb) {
 // Conversions of one sample, for an engine of one transfer function.
 struct DeepTables {
   uint16_t decode[65536];       // Deep codes of 16-bit codes.
+  uint16_t decode_bytes[256];   // Deep codes of 8-bit codes.
   uint16_t encode[65536];       // 16-bit codes of deep codes.
   uint16_t decode_half[65536];  // Deep codes of half floats; 0 for negative light and NaN.
   uint16_t encode_half[65536];  // Half floats of deep codes.
@@ -74,10 +75,10 @@ void WriteDeep(const DeepTables& tables, const DeepRow& row, int32_t width, int3
 void WriteDeepYuv(const DeepTables& tables, const uint16_t* const rows[2], const Range& luma,
                   int32_t width, int32_t y, const ImageTarget& image);
 
-// Converts `count` pixels of row y of the picture, from column x on, to 8-bit codes. Codes are
-// dithered where the picture has no constant colour. If `straight` is true, colours are divided by
-// alpha.
-void DitherRow(const DeepTables& tables, const DeepRow& row, int32_t x, int32_t y, int32_t count,
+// Converts `count` pixels of row y of the picture to 8-bit codes, from a column on that is a
+// multiple of simd::kDitherColumns. Codes are dithered where the row is smooth, and rounded
+// elsewhere. If `straight` is true, colours are divided by alpha.
+void DitherRow(const DeepTables& tables, const DeepRow& row, int32_t y, int32_t count,
                bool straight, uint8_t* rgb);
 
 }  // namespace starfocus

@@ -167,13 +167,25 @@ void WithDeep(const Input& in, int view, int32_t x, int32_t y, int32_t count, co
   }
 }
 
+// Copies `count` samples of deep codes, clipped at white.
+void ClipAtWhite(const uint16_t* codes, int32_t count, int16_t* light) {
+  // The compiler uses vectors for arrays of a fixed length.
+  constexpr int32_t kGroup = 16;
+  uint16_t group[kGroup];
+  const auto clipped = [](uint16_t code) { return code < kLightWhite ? code : kLightWhite; };
+  int32_t n = 0;
+  for (; n + kGroup <= count; n += kGroup) {
+    std::memcpy(group, codes + n, sizeof group);
+    for (uint16_t& code : group) code = static_cast<uint16_t>(clipped(code));
+    std::memcpy(light + n, group, sizeof group);
+  }
+  for (; n < count; ++n) light[n] = static_cast<int16_t>(clipped(codes[n]));
+}
+
 void ReadDeepLight(const Input& in, int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
   WithDeep<false>(in, view, x, y, count,
                   [&](int32_t at, int32_t some, const uint16_t* codes, const uint16_t*) {
-                    int16_t* const to = rgb + 3 * at;
-                    for (int32_t n = 0; n < 3 * some; ++n) {
-                      to[n] = static_cast<int16_t>(codes[n] < kLightWhite ? codes[n] : kLightWhite);
-                    }
+                    ClipAtWhite(codes, 3 * some, rgb + 3 * at);
                   });
 }
 

@@ -5,6 +5,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/io/deep.h"
+#include "simd/words.h"
 
 namespace starfocus {
 namespace {
@@ -103,14 +104,19 @@ void StoreDeepRows(const Output& out, const PictureRows& from, const Range& insi
 
 // Converts deep rows to codes, with their alpha if the output has alpha.
 void Dither(const Output& out, const Range& rows, const PictureRows& from) {
+  constexpr auto kColumns = static_cast<int32_t>(simd::kDitherColumns);
   const Rect& rect = out.rect;
+  // Groups of columns are converted as a whole, so that regions get the codes of the whole picture.
+  const int32_t first = rect.x / kColumns * kColumns;
+  const int32_t width = static_cast<int32_t>(out.dithered.stride) / 3;
+  const int32_t last = Min(width, (rect.x + rect.width + kColumns - 1) / kColumns * kColumns);
   for (int32_t y = rows.first; y < rows.last; ++y) {
-    const uint16_t* const alpha = from.alpha.Row(y) + rect.x;
-    DitherRow(*out.tables, {from.deep.Row(y) + 3 * static_cast<ptrdiff_t>(rect.x), alpha}, rect.x,
-              y, rect.width, out.image.has_alpha,
-              out.dithered.Row(y) + 3 * static_cast<ptrdiff_t>(rect.x));
-    uint8_t* const to = out.dithered_alpha.Row(y) + rect.x;
-    for (int32_t x = 0; x < rect.width; ++x) {
+    const uint16_t* const alpha = from.alpha.Row(y);
+    DitherRow(*out.tables, {from.deep.Row(y) + 3 * static_cast<ptrdiff_t>(first), alpha + first}, y,
+              last - first, out.image.has_alpha,
+              out.dithered.Row(y) + 3 * static_cast<ptrdiff_t>(first));
+    uint8_t* const to = out.dithered_alpha.Row(y);
+    for (int32_t x = rect.x; out.image.has_alpha && x < rect.x + rect.width; ++x) {
       to[x] = static_cast<uint8_t>((alpha[x] + (1 << kLightBits >> 1)) >> kLightBits);
     }
   }

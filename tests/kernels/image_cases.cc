@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Test and benchmark calls of the kernels that convert pictures (simd/pixels.h) and depth values
 // (simd/depth_values.h).
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -275,6 +276,21 @@ void RgbToChromaWords(Draw* draw, WordCall* call) {
   const uint16_t* lower = call->Input("lower", image_cases::Words(3 * count, draw));
   auto* uv = call->Results<uint16_t>("uv", 2 * half);
   call->Calls(&WordKernels::RgbToChromaWords, upper, lower, count, m, uv);
+}
+
+// Words of rows that are smooth, or have a small step, somewhere between two codes.
+void DitherWords(Draw* draw, WordCall* call) {
+  const size_t count = draw->Length(1, kLongestRow, 1024);
+  const int most = draw->Int(0, 3) == 0 ? 65535 : draw->Int(0, 40);
+  int level = draw->Int(0, 65535);
+  const uint16_t* rgb = call->Input("rgb", Filled<uint16_t>(3 * count, [&] {
+                                      level = std::clamp(level + draw->Int(-most, most), 0, 65535);
+                                      return uint16_t(level);
+                                    }));
+  const uint16_t* more =
+      call->Input("more", Filled<uint16_t>(8, [&] { return uint16_t(draw->Int(0, 255)); }));
+  auto* out = call->Results<uint8_t>("out", 3 * count);
+  call->Calls(&WordKernels::DitherWords, rgb, count, more, out);
 }
 
 }  // namespace test::word_cases

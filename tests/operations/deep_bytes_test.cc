@@ -459,5 +459,91 @@ TEST_CASE("deep: all ways to ask for a picture of a random case give the same wo
   });
 }
 
+test::Output Codes(test::Engine* engine, const starfocus::Params& params, const test::Scene& scene,
+                   const starfocus_region& region) {
+  starfocus::Params part = params;
+  part.region = region;
+  const bool whole = region.width == 0;
+  test::Output out(whole ? scene.width : region.width, whole ? scene.height : region.height);
+  const starfocus_light_field field = scene.Field();
+  const starfocus_image image = starfocus_image_rgb(out.bytes.data(), out.stride);
+  REQUIRE(engine->status() == STARFOCUS_OK);
+  REQUIRE(starfocus_refocus(engine->get(), &part, &field, &image, nullptr) == STARFOCUS_OK);
+  return out;
+}
+
+// Returns the largest error of the mean of 32 rows of codes.
+double WorstMean(const test::Output& codes, Words exact) {
+  double worst = 0;
+  for (int top = 0; top + 32 <= codes.height; ++top) {
+    double sum = 0;
+    for (int y = top; y < top + 32; ++y) {
+      for (int x = 0; x < codes.width; ++x) {
+        sum += codes.Pixel(x, y)[1] - exact.At(x, y)[1] / 257.0;
+      }
+    }
+    worst = std::max(worst, std::fabs(sum / (32 * codes.width)));
+  }
+  return worst;
+}
+
+TEST_CASE("deep: blurred skies of 8 bits have the right means, and flat pictures stay flat") {
+  test::Scene scene = test::LayeredScene(150, 100, 1, 8, 28);
+  std::fill(scene.disparity.begin(), scene.disparity.end(), scene.disparity_min);
+  const starfocus::Params params = test::Params(scene.disparity_max, 1, STARFOCUS_MODE_BLOCK);
+  test::Random random(33);
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) {
+      const auto code = uint8_t((y + random.Int(0, 63)) / 64 + 140);
+      std::fill_n(scene.Pixel(0, x, y), 3, code);
+    }
+  }
+  test::Engine engine(DeepConfig(scene));
+  DeepField field(scene, STARFOCUS_FORMAT_RGB16, kExpand);
+  const Words exact = Refocused(&engine, params, &field, STARFOCUS_FORMAT_RGB16);
+  CHECK(WorstMean(Codes(&engine, params, scene, {}), exact) < 0.05);
+  CHECK(WorstMean(test::OutputOf(test::ConfigFor(scene, 24), params, scene), exact) > 0.2);
+  for (int level = 0; level < 256; level += test::kSlow ? 51 : 1) {
+    for (std::vector<uint8_t>& view : scene.pictures) {
+      std::fill(view.begin(), view.end(), uint8_t(level));
+    }
+    const std::vector<uint8_t> out = Codes(&engine, params, scene, {}).Tight();
+    CAPTURES(level);
+    CHECK(std::count(out.begin(), out.end(), uint8_t(level)) == ptrdiff_t(out.size()));
+  }
+}
+
+TEST_CASE("deep: regions of dithered pictures have the codes of the whole picture") {
+  properties::ForRandomCases(60, [](test::Random* random) {
+    properties::Case of = properties::RandomCase(random);
+    INFO(of.Text());
+    if (of.params.study.mode == STARFOCUS_MODE_BENCHMARK) return;
+    // Less contrast, so that groups of columns are about as smooth as those that are dithered.
+    for (std::vector<uint8_t>& view : of.scene.pictures) {
+      for (uint8_t& code : view) code = uint8_t(100 + code / 8);
+    }
+    test::Config config = of.config;
+    config.features |= STARFOCUS_FEATURE_DEEP;
+    config.highlights = 1;
+    test::Engine engine(config);
+    const test::Output whole = Codes(&engine, of.params, of.scene, {});
+    const auto targets = test::SimdTargets();
+    test::UseKernels(targets[random->Next() % targets.size()], engine.get());
+    for (int k = 0; k < 8; ++k) {
+      const int x = random->Int(0, of.scene.width - 1), y = random->Int(0, of.scene.height - 1);
+      const starfocus_region region = {x, y, random->Int(1, of.scene.width - x),
+                                       random->Int(1, of.scene.height - y)};
+      const test::Output part = Codes(&engine, of.params, of.scene, region);
+      bool same = true;
+      for (int row = 0; row < part.height; ++row) {
+        same = same && std::equal(part.Pixel(0, row), part.Pixel(0, row) + part.stride,
+                                  whole.Pixel(x, y + row));
+      }
+      CAPTURES(x, y, region.width, region.height);
+      CHECK(same);
+    }
+  });
+}
+
 }  // namespace
 }  // namespace deep_test

@@ -13,7 +13,7 @@
  * codes of 16 bits, which starfocus_config.transfer converts. Negative half floats and NaN count as
  * 0, and light beyond 64 times white is limited. Integers have straight alpha, and half floats are
  * premultiplied. In formats of 8 bits, the fourth sample of these engines' outputs is the refocused
- * alpha, and colours that lie between two codes are dithered.
+ * alpha, and smooth colours between two codes are dithered.
  */
 #ifndef STARFOCUS_IMAGE_H_
 #define STARFOCUS_IMAGE_H_

@@ -199,7 +199,7 @@ STARFOCUS_API const char* starfocus_status_string(starfocus_status status);
 #define STARFOCUS_FEATURE_SHAPES 8u
 /** Enables pictures of more than 8 bits, light up to 64 times white, and alpha, besides the formats
  *  of STARFOCUS_FEATURE_IMAGES. Light has 15 bits up to white, and 9 to 15 bits beyond. 8-bit
- *  outputs are dithered where they are not flat. */
+ *  outputs are dithered where they are smooth. */
 #define STARFOCUS_FEATURE_DEEP 16u
 /** @} */
 
