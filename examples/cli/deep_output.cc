@@ -128,11 +128,12 @@ Error ChooseBits(const OutputOptions& output, bool single, Capture* capture, Eng
   // Pictures without alpha show the colours of transparent pixels, and those of a sweep no light
   // beyond white.
   if (!keeps && (has_alpha || (is_hdr && !single))) light_field.deep.clear();
+  // Pictures of 8 bits are dithered, so that smooth areas have no bands.
+  if (!brightens || !light_field.deep.empty()) task->config.features |= STARFOCUS_FEATURE_DEEP;
   if (light_field.deep.empty()) return {};
   if (Error error = keeps ? CheckLight(path, light_field.deep[0]) : Error()) return error;
   task->deep_views = true;
   task->deep_picture = keeps || is_hdr;
-  task->config.features |= STARFOCUS_FEATURE_DEEP;
   for (const DeepImage& deep : light_field.deep) {
     const bool chosen = task->config.transfer == STARFOCUS_TRANSFER_NONE;
     if (!deep.is_half && !(chosen && deep.transfer == STARFOCUS_TRANSFER_SRGB)) {
