@@ -24,9 +24,14 @@ import numpy, starfocus
 from PIL import Image
 field = starfocus.read_light_field(\"field\")
 print(starfocus.__version__, field)"'
+inside sh -c 'apt-get install -y --no-install-recommends gstreamer1.0-plugins-base gstreamer1.0-tools'
+inside gst-inspect-1.0 starfocus
+inside gst-launch-1.0 starfocus name=s ! fakesink videotestsrc num-buffers=2 ! video/x-raw,format=NV12 ! s.video \
+  videotestsrc num-buffers=2 ! video/x-raw,format=GRAY8 ! s.depth
 inside sh -c 'apt-get install -y --no-install-recommends gcc libc6-dev pkg-config'
 cp "$(dirname "$0")/../../examples/minimal/minimal.c" "$root/tmp/example.c"
 inside sh -c 'cd /tmp && gcc example.c $(pkg-config --cflags --libs starfocus) -o example && ./example'
-inside sh -c 'apt-get purge -y starfocus starfocus-lab python3-starfocus libstarfocus1 libstarfocus-dev'
+inside sh -c 'apt-get purge -y starfocus starfocus-lab python3-starfocus libstarfocus1 libstarfocus-dev \
+  gstreamer1.0-starfocus'
 find "$root/usr" "$root/etc" "$root/var/lib/dpkg/info" -name '*starfocus*' | grep . && fail "files remain"
 echo "installed, ran and removed in a bare Debian for $architecture: $(ls "$root"/tmp/*.deb | wc -l) packages"
