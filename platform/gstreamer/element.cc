@@ -5,6 +5,7 @@
 #include <gst/base/gstaggregator.h>
 #include <gst/video/gstvideopool.h>
 
+#include <algorithm>
 #include <initializer_list>
 #include <new>
 
@@ -310,21 +311,28 @@ GstFlowReturn UpdateSourceCaps(GstAggregator* aggregator, GstCaps* caps, GstCaps
   return GST_FLOW_OK;
 }
 
-// Pictures come from a pool of the element, since the engine writes to ordinary memory.
+// Pictures come from a pool of downstream, which saves a copy, or else from a pool of the element.
 gboolean DecideAllocation(GstAggregator*, GstQuery* query) {
   GstCaps* caps = nullptr;
   GstVideoInfo info;
   gst_query_parse_allocation(query, &caps, nullptr);
   if (caps == nullptr || !gst_video_info_from_caps(&info, caps)) return FALSE;
-  while (gst_query_get_n_allocation_pools(query) > 0) {
-    gst_query_remove_nth_allocation_pool(query, 0);
+  GstBufferPool* pool = nullptr;
+  guint bytes = static_cast<guint>(info.size), least = 0, most = 0;
+  if (gst_query_get_n_allocation_pools(query) > 0) {
+    gst_query_parse_nth_allocation_pool(query, 0, &pool, &bytes, &least, &most);
+  } else {
+    gst_query_add_allocation_pool(query, nullptr, bytes, 0, 0);
   }
-  GstBufferPool* const pool = gst_video_buffer_pool_new();
+  if (pool == nullptr) pool = gst_video_buffer_pool_new();
+  bytes = std::max(bytes, static_cast<guint>(info.size));  // downstream may give 0
   GstStructure* const config = gst_buffer_pool_get_config(pool);
-  const auto bytes = static_cast<guint>(info.size);
-  gst_buffer_pool_config_set_params(config, caps, bytes, 0, 0);
+  gst_buffer_pool_config_set_params(config, caps, bytes, least, most);
+  if (gst_query_find_allocation_meta(query, GST_VIDEO_META_API_TYPE, nullptr)) {
+    gst_buffer_pool_config_add_option(config, GST_BUFFER_POOL_OPTION_VIDEO_META);
+  }
   const gboolean is_set = gst_buffer_pool_set_config(pool, config);
-  gst_query_add_allocation_pool(query, pool, bytes, 0, 0);
+  gst_query_set_nth_allocation_pool(query, 0, pool, bytes, least, most);
   gst_object_unref(pool);
   return is_set;
 }

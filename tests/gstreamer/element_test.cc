@@ -155,11 +155,21 @@ class Pipeline {
     REQUIRE(buffer != nullptr);
     CHECK(GST_BUFFER_PTS(buffer) == time);
     CHECK(GST_BUFFER_DURATION(buffer) == kFrame);
-    Bytes bytes(gst_buffer_get_size(buffer));
-    gst_buffer_extract(buffer, 0, bytes.data(), bytes.size());
+    return RowsOf(buffer);
+  }
+  // Returns the rows of a picture. Takes ownership of `buffer`.
+  Bytes RowsOf(GstBuffer* buffer) {
+    GstVideoFrame picture;
+    REQUIRE(gst_video_frame_map(&picture, &video_info, buffer, GST_MAP_READ));
+    starfocus_image image = ImageOf(video_info, nullptr);
+    for (guint i = 0; i < GST_VIDEO_FRAME_N_PLANES(&picture); ++i) {
+      image.planes[i] = GST_VIDEO_FRAME_PLANE_DATA(&picture, i);
+      image.strides[i] = size_t(GST_VIDEO_FRAME_PLANE_STRIDE(&picture, i));
+    }
+    const Bytes rows = Rows(image);
+    gst_video_frame_unmap(&picture);
     gst_buffer_unref(buffer);
-    REQUIRE(bytes.size() == frame.size());
-    return Rows(ImageOf(video_info, bytes.data()));
+    return rows;
   }
   Bytes Refocused(int right, const Lens& lens = {}) const {
     return Expected(video_info, frame, depth_info, Surfaces(depth_info, right), lens);
@@ -362,6 +372,40 @@ TEST_CASE("element: stabilised depth depends on the frames before") {
   g_object_set(pipeline.element, "stabilise", FALSE, "disparity-black", -8.0, "disparity-white",
                8.0, nullptr);
   CHECK(next(220, 3 * kFrame) == pipeline.Refocused(220));
+}
+
+// Offers `pool` to the element, as a sink does whose memory is not that of the element.
+GstPadProbeReturn OfferPool(GstPad*, GstPadProbeInfo* info, gpointer pool) {
+  GstQuery* const query = GST_PAD_PROBE_INFO_QUERY(info);
+  if (GST_QUERY_TYPE(query) != GST_QUERY_ALLOCATION) return GST_PAD_PROBE_OK;
+  gst_query_add_allocation_pool(query, GST_BUFFER_POOL(pool), 0, 0, 0);
+  gst_query_add_allocation_meta(query, GST_VIDEO_META_API_TYPE, nullptr);
+  return GST_PAD_PROBE_HANDLED;
+}
+
+TEST_CASE("element: pictures are written to the buffers of downstream") {
+  Pipeline pipeline(kVideo, kDepth);
+  GstBufferPool* const pool = gst_video_buffer_pool_new();
+  GstStructure* const config = gst_buffer_pool_get_config(pool);
+  GstVideoAlignment padding;
+  gst_video_alignment_reset(&padding);
+  padding.padding_right = 30, padding.padding_top = 6;
+  gst_buffer_pool_config_add_option(config, GST_BUFFER_POOL_OPTION_VIDEO_META);
+  gst_buffer_pool_config_add_option(config, GST_BUFFER_POOL_OPTION_VIDEO_ALIGNMENT);
+  gst_buffer_pool_config_set_video_alignment(config, &padding);
+  GstCaps* const caps = gst_pad_get_current_caps(pipeline.at_video->srcpad);
+  gst_buffer_pool_config_set_params(config, caps, guint(pipeline.video_info.size), 0, 0);
+  gst_caps_unref(caps);
+  REQUIRE(gst_buffer_pool_set_config(pool, config));
+  gst_pad_add_probe(pipeline.at_video->sinkpad, GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM, OfferPool,
+                    pool, nullptr);
+  pipeline.PushDepth(160, 0);
+  pipeline.PushVideo(0);
+  GstBuffer* const picture = gst_harness_pull(pipeline.at_video);
+  REQUIRE(picture != nullptr);
+  CHECK(picture->pool == pool);
+  CHECK(pipeline.RowsOf(picture) == pipeline.Refocused(160));
+  gst_object_unref(pool);
 }
 
 TEST_CASE("element: upstream may send only what downstream accepts") {
