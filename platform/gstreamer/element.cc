@@ -17,15 +17,18 @@ GST_DEBUG_CATEGORY_STATIC(starfocus_debug);
 namespace starfocus {
 namespace {
 
+#if G_BYTE_ORDER == G_LITTLE_ENDIAN
+#define VIDEO_CAPS GST_VIDEO_CAPS_MAKE("{ NV12, I420, RGB, P010_10LE }")
+#else
+#define VIDEO_CAPS GST_VIDEO_CAPS_MAKE("{ NV12, I420, RGB, P010_10BE }")
+#endif
 GstStaticPadTemplate video_template =
-    GST_STATIC_PAD_TEMPLATE("video", GST_PAD_SINK, GST_PAD_ALWAYS,
-                            GST_STATIC_CAPS(GST_VIDEO_CAPS_MAKE("{ NV12, I420, RGB }")));
+    GST_STATIC_PAD_TEMPLATE("video", GST_PAD_SINK, GST_PAD_ALWAYS, GST_STATIC_CAPS(VIDEO_CAPS));
 GstStaticPadTemplate depth_template = GST_STATIC_PAD_TEMPLATE(
     "depth", GST_PAD_SINK, GST_PAD_ALWAYS,
     GST_STATIC_CAPS(GST_VIDEO_CAPS_MAKE("{ GRAY8, " GST_VIDEO_NE(GRAY16) " }")));
 GstStaticPadTemplate picture_template =
-    GST_STATIC_PAD_TEMPLATE("src", GST_PAD_SRC, GST_PAD_ALWAYS,
-                            GST_STATIC_CAPS(GST_VIDEO_CAPS_MAKE("{ NV12, I420, RGB }")));
+    GST_STATIC_PAD_TEMPLATE("src", GST_PAD_SRC, GST_PAD_ALWAYS, GST_STATIC_CAPS(VIDEO_CAPS));
 
 struct GstStarfocus {
   GstAggregator parent;
@@ -228,8 +231,13 @@ GstClockTime NextTime(GstAggregator* aggregator) {
 }
 
 bool SetCaps(GstStarfocus* self, GstAggregatorPad* pad, GstCaps* caps) {
-  if (pad == self->depth) return gst_video_info_from_caps(&self->depth_info, caps);
-  if (!gst_video_info_from_caps(&self->video_info, caps)) return false;
+  GstVideoInfo* const info = pad == self->depth ? &self->depth_info : &self->video_info;
+  if (!gst_video_info_from_caps(info, caps)) return false;
+  if (GST_VIDEO_INFO_IS_INTERLACED(info)) {
+    Fail(self, "interlaced video is not supported; deinterlace it first");
+    return false;
+  }
+  if (pad == self->depth) return true;
   gst_caps_replace(&self->video_caps, caps);
   const GstClockTime frame = FrameDuration(self->video_info);
   const GstClockTime latency = GST_CLOCK_TIME_IS_VALID(frame) ? frame : 0;
@@ -269,15 +277,10 @@ gboolean SinkQuery(GstAggregator* aggregator, GstAggregatorPad* pad, GstQuery* q
   GstCaps* filter = nullptr;
   gst_query_parse_caps(query, &filter);
   GstCaps* const all = gst_pad_get_pad_template_caps(aggregator->srcpad);
-  GstCaps* const accepted = gst_pad_peer_query_caps(aggregator->srcpad, all);
-  GstCaps* caps = gst_caps_intersect(accepted, all);
+  GstCaps* const accepted = gst_pad_peer_query_caps(aggregator->srcpad, filter);
+  GstCaps* const caps = gst_caps_intersect_full(accepted, all, GST_CAPS_INTERSECT_FIRST);
   gst_caps_unref(accepted);
   gst_caps_unref(all);
-  if (filter != nullptr) {
-    GstCaps* const both = gst_caps_intersect_full(filter, caps, GST_CAPS_INTERSECT_FIRST);
-    gst_caps_unref(caps);
-    caps = both;
-  }
   gst_query_set_caps_result(query, caps);
   gst_caps_unref(caps);
   return TRUE;

@@ -44,8 +44,11 @@ bool ReadImage(const GstVideoFrame& frame, starfocus_image* image, ProblemText* 
     case GST_VIDEO_FORMAT_I420:
       image->format = STARFOCUS_FORMAT_I420;
       break;
-    default:
+    case GST_VIDEO_FORMAT_RGB:
       image->format = STARFOCUS_FORMAT_RGB;
+      break;
+    default:
+      image->format = STARFOCUS_FORMAT_P010;
   }
   for (guint i = 0; i < GST_VIDEO_FRAME_N_PLANES(&frame); ++i) {
     image->planes[i] = GST_VIDEO_FRAME_PLANE_DATA(&frame, i);
@@ -76,7 +79,8 @@ bool ReadDepth(const RefocusSettings& settings, const GstVideoFrame& frame,
 
 bool AreAlike(const starfocus_config& a, const starfocus_config& b) {
   return a.width == b.width && a.height == b.height && a.disparity_min == b.disparity_min &&
-         a.disparity_max == b.disparity_max && a.max_workers == b.max_workers;
+         a.disparity_max == b.disparity_max && a.max_workers == b.max_workers &&
+         a.features == b.features;
 }
 
 // Sets the largest blur of the lens and the disparities. Returns false if it exceeds the limit.
@@ -199,6 +203,12 @@ bool Refocuser::Refocus(const RefocusSettings& settings, const GstVideoFrame& vi
   }
   if (!SetThreads(settings.threads, problem)) return false;
   starfocus_config config = NewConfig(settings, width, height, field.depth);
+  const bool is_deep = picture.format == STARFOCUS_FORMAT_P010;
+  if (is_deep) config.features |= STARFOCUS_FEATURE_DEEP;
+  if (is_deep && settings.stabilise) {
+    return Fail(problem, "stabilise supports video of 8 bits, but not of %d",
+                GST_VIDEO_FRAME_COMP_DEPTH(&video, 0));
+  }
   if (!SetBlur(settings, &config, problem) || !SetEngine(config, problem)) return false;
   if (!settings.stabilise) FreeStabiliser();
   if (settings.stabilise && !Stabilise(config, &field, problem)) return false;

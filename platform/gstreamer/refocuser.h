@@ -22,9 +22,9 @@ class Refocuser {
   Refocuser(const Refocuser&) = delete;
   Refocuser& operator=(const Refocuser&) = delete;
 
-  // Refocuses a frame. `video` and `out` have the same format and size: NV12, I420 or RGB. `depth`
-  // is GRAY8 or GRAY16 in the byte order of the machine, and at most as large as the video. Returns
-  // false and writes the cause if the frame cannot be refocused.
+  // Refocuses a frame. `video` and `out` have the same format and size: NV12, I420, RGB or P010.
+  // `depth` is GRAY8 or GRAY16, and at most as large as the video. Words have the byte order of the
+  // machine. Returns false and writes the cause if the frame cannot be refocused.
   bool Refocus(const RefocusSettings& settings, const GstVideoFrame& video,
                const GstVideoFrame& depth, GstVideoFrame* out, ProblemText* problem);
 

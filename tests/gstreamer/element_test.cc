@@ -14,10 +14,10 @@
 namespace element_test {
 namespace {
 
-constexpr int kWidth = 70, kHeight = 50, kMapWidth = 35, kMapHeight = 20;
+constexpr int kMapWidth = 35, kMapHeight = 20;
 constexpr GstClockTime kFrame = GST_SECOND / 25;
 const std::string kMapSize = ",width=35,height=20";
-const std::string kVideo = "video/x-raw,format=NV12,width=70,height=50,framerate=25/1";
+const std::string kVideo = "video/x-raw,format=NV12,width=71,height=49,framerate=25/1";
 const std::string kDepth = "video/x-raw,format=GRAY8,framerate=5/1" + kMapSize;
 const std::string kUnevenDepth = "video/x-raw,format=GRAY8,framerate=0/1" + kMapSize;
 
@@ -58,6 +58,7 @@ starfocus_image ImageOf(const GstVideoInfo& info, uint8_t* data) {
   const GstVideoFormat format = GST_VIDEO_INFO_FORMAT(&info);
   if (format == GST_VIDEO_FORMAT_NV12) image.format = STARFOCUS_FORMAT_NV12;
   if (format == GST_VIDEO_FORMAT_I420) image.format = STARFOCUS_FORMAT_I420;
+  if (format == GST_VIDEO_FORMAT_P010_10LE) image.format = STARFOCUS_FORMAT_P010;
   if (info.colorimetry.matrix == GST_VIDEO_COLOR_MATRIX_BT709) image.matrix = 1;
   if (info.colorimetry.range == GST_VIDEO_COLOR_RANGE_0_255) image.range = 1;
   for (guint i = 0; i < GST_VIDEO_INFO_N_PLANES(&info); ++i) {
@@ -68,12 +69,12 @@ starfocus_image ImageOf(const GstVideoInfo& info, uint8_t* data) {
 }
 
 // Returns the rows of all planes without padding.
-Bytes Rows(const starfocus_image& image) {
+Bytes Rows(const starfocus_image& image, const GstVideoInfo& info) {
   Bytes rows;
   for (int plane = 0; plane < 3; ++plane) {
     int32_t count = 0;
     size_t bytes = 0;
-    starfocus_plane_size(&image, plane, kWidth, kHeight, &count, &bytes, nullptr);
+    starfocus_plane_size(&image, plane, info.width, info.height, &count, &bytes, nullptr);
     for (int32_t y = 0; y < count; ++y) {
       const auto* row =
           static_cast<uint8_t*>(image.planes[plane]) + size_t(y) * image.strides[plane];
@@ -87,8 +88,9 @@ Bytes Rows(const starfocus_image& image) {
 Bytes Expected(const GstVideoInfo& video, Bytes frame, const GstVideoInfo& depth, const Bytes& map,
                const Lens& lens) {
   starfocus::Config config;
-  config.width = kWidth, config.height = kHeight, config.views = 1;
+  config.width = video.width, config.height = video.height, config.views = 1;
   config.features |= STARFOCUS_FEATURE_IMAGES | STARFOCUS_FEATURE_SHAPES;
+  if (GST_VIDEO_INFO_COMP_DEPTH(&video, 0) > 8) config.features |= STARFOCUS_FEATURE_DEEP;
   config.disparity_min = -8, config.disparity_max = 8, config.max_blur = STARFOCUS_MAX_BLUR;
   starfocus::Engine engine;
   REQUIRE(engine.Init(config) == STARFOCUS_OK);
@@ -110,7 +112,7 @@ Bytes Expected(const GstVideoInfo& video, Bytes frame, const GstVideoInfo& depth
   Bytes out(frame.size());
   const starfocus_image picture = ImageOf(video, out.data());
   REQUIRE(engine.Refocus(params, field, picture) == STARFOCUS_OK);
-  return Rows(picture);
+  return Rows(picture, video);
 }
 
 // An element with a harness at each sink pad.
@@ -125,6 +127,11 @@ class Pipeline {
     at_depth = gst_harness_new_with_element(element, "depth", nullptr);
     gst_element_set_bus(element, bus_);
     gst_harness_set_src_caps_str(at_depth, depth.c_str());
+    gst_harness_set_src_caps_str(at_video, video.c_str());
+  }
+  void ChangeVideo(const std::string& video) {
+    video_info = InfoOf(video);
+    frame = Texture(video_info);
     gst_harness_set_src_caps_str(at_video, video.c_str());
   }
   ~Pipeline() {
@@ -166,7 +173,7 @@ class Pipeline {
       image.planes[i] = GST_VIDEO_FRAME_PLANE_DATA(&picture, i);
       image.strides[i] = size_t(GST_VIDEO_FRAME_PLANE_STRIDE(&picture, i));
     }
-    const Bytes rows = Rows(image);
+    const Bytes rows = Rows(image, video_info);
     gst_video_frame_unmap(&picture);
     gst_buffer_unref(buffer);
     return rows;
@@ -217,10 +224,11 @@ const bool kIsLoaded = [] {
 
 TEST_CASE("element: pictures of all formats are those of the engine") {
   REQUIRE(kIsLoaded);
-  const std::string size = ",width=70,height=50,framerate=25/1";
+  const std::string size = ",width=71,height=49,framerate=25/1";
   const Lens lens = {3, 0.5, STARFOCUS_SHAPE_POLYGON};
   for (const std::string format :
-       {"NV12,colorimetry=bt601", "NV12,colorimetry=bt709", "I420,colorimetry=1:4:0:0", "RGB"}) {
+       {"NV12,colorimetry=bt601", "NV12,colorimetry=bt709", "I420,colorimetry=1:4:0:0", "RGB",
+        "P010_10LE,colorimetry=bt709"}) {
     for (const std::string depth : {"GRAY8", "GRAY16_LE"}) {
       CAPTURE(format + " " + depth);
       Pipeline pipeline("video/x-raw,format=" + format + size,
@@ -324,6 +332,7 @@ TEST_CASE("element: after a flush, earlier depth is not used") {
   pipeline.PushDepth(160, 0);
   pipeline.PushVideo(0);
   pipeline.Pull(0);
+  pipeline.PushVideo(99 * kFrame);  // waits for depth
   GstSegment segment;
   gst_segment_init(&segment, GST_FORMAT_TIME);
   GstHarness* const both[] = {pipeline.at_video, pipeline.at_depth};
@@ -374,6 +383,27 @@ TEST_CASE("element: stabilised depth depends on the frames before") {
   CHECK(next(220, 3 * kFrame) == pipeline.Refocused(220));
 }
 
+TEST_CASE("element: the size and the format of the video and the depth may change") {
+  Pipeline pipeline(kVideo, kDepth);
+  pipeline.PushDepth(160, 0);
+  pipeline.PushVideo(0);
+  CHECK(pipeline.Pull(0) == pipeline.Refocused(160));
+  pipeline.ChangeVideo("video/x-raw,format=P010_10LE,width=71,height=49,framerate=25/1");
+  pipeline.PushVideo(kFrame);
+  CHECK(pipeline.Pull(kFrame) == pipeline.Refocused(160));
+  pipeline.ChangeVideo("video/x-raw,format=I420,width=90,height=40,framerate=25/1");
+  pipeline.PushVideo(2 * kFrame);
+  CHECK(pipeline.Pull(2 * kFrame) == pipeline.Refocused(160));
+  const std::string deep = "video/x-raw,format=GRAY16_LE,framerate=5/1" + kMapSize;
+  gst_harness_set_src_caps_str(pipeline.at_depth, deep.c_str());
+  pipeline.PushVideo(3 * kFrame);
+  CHECK(pipeline.Pull(3 * kFrame) == pipeline.Refocused(160));  // still the depth of 8 bits
+  pipeline.depth_info = InfoOf(deep);
+  pipeline.PushDepth(220, 5 * kFrame);
+  pipeline.PushVideo(5 * kFrame);
+  CHECK(pipeline.Pull(5 * kFrame) == pipeline.Refocused(220));
+}
+
 // Offers `pool` to the element, as a sink does whose memory is not that of the element.
 GstPadProbeReturn OfferPool(GstPad*, GstPadProbeInfo* info, gpointer pool) {
   GstQuery* const query = GST_PAD_PROBE_INFO_QUERY(info);
@@ -410,10 +440,10 @@ TEST_CASE("element: pictures are written to the buffers of downstream") {
 
 TEST_CASE("element: upstream may send only what downstream accepts") {
   Pipeline pipeline(kVideo, kDepth);
-  gst_harness_set_sink_caps_str(pipeline.at_video, "video/x-raw,format=RGB,width=70");
+  gst_harness_set_sink_caps_str(pipeline.at_video, "video/x-raw,format=RGB,width=71");
   GstCaps* const caps = gst_pad_peer_query_caps(pipeline.at_video->srcpad, nullptr);
   GstCaps* const expected = gst_caps_from_string(
-      "video/x-raw,format=RGB,width=70,height=[1,2147483647],framerate=[0/1,2147483647/1]");
+      "video/x-raw,format=RGB,width=71,height=[1,2147483647],framerate=[0/1,2147483647/1]");
   CHECK(gst_caps_is_equal(caps, expected));
   gst_caps_unref(caps);
   gst_caps_unref(expected);
@@ -427,12 +457,17 @@ std::string ErrorOf(Pipeline* pipeline, GstClockTime time = 0, GstClockTime dept
 }
 
 TEST_CASE("element: errors name their cause") {
-  const std::string wide = "video/x-raw,format=GRAY8,framerate=5/1,width=71,height=20";
+  const std::string wide = "video/x-raw,format=GRAY8,framerate=5/1,width=72,height=20";
   Pipeline large(kVideo, wide);
-  CHECK(ErrorOf(&large) == "the depth has 71x20 pixels, more than the 70x50 pixels of the video");
+  CHECK(ErrorOf(&large) == "the depth has 72x20 pixels, more than the 71x49 pixels of the video");
   Pipeline wrong_matrix(kVideo + ",colorimetry=bt2020", kDepth);
   CHECK(ErrorOf(&wrong_matrix) ==
         "the video has the YUV matrix 9, but only BT.601 and BT.709 are supported");
+  Pipeline deep("video/x-raw,format=P010_10LE,width=71,height=49,framerate=25/1", kDepth);
+  g_object_set(deep.element, "stabilise", TRUE, nullptr);
+  CHECK(ErrorOf(&deep) == "stabilise supports video of 8 bits, but not of 10");
+  Pipeline interlaced(kVideo + ",interlace-mode=interleaved", kDepth);
+  CHECK(ErrorOf(&interlaced) == "interlaced video is not supported; deinterlace it first");
   Pipeline untimed(kVideo, kDepth);
   CHECK(ErrorOf(&untimed, GST_CLOCK_TIME_NONE) == "the video has no timestamps");
   Pipeline untimed_depth(kVideo, kDepth);
