@@ -26,7 +26,7 @@ HWY_INLINE void LookUp(const T* HWY_RESTRICT table, const Index* HWY_RESTRICT in
   for (size_t n = 0; !done && n < count; ++n) out[n] = table[index[n]];
 }
 
-#if HWY_TARGET == HWY_AVX3
+#if HWY_TARGET <= HWY_AVX3  // and its successors
 // LookUp for a table of 256 entries, which fit into 8 registers. Highway 1.0.3 has no lookup in two
 // registers.
 HWY_INLINE void LookUpCodes(const int16_t* HWY_RESTRICT table, const uint8_t* HWY_RESTRICT codes,
