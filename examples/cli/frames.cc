@@ -23,13 +23,6 @@ namespace starfocus {
 
 namespace {
 
-// Returns true if the frame can be read again as a light-field folder.
-bool IsReady(const MapOptions& options, const Capture& capture) {
-  return !capture.photo && !capture.map_path.empty() && capture.map_scale == 1 &&
-         capture.care == MapCare::kNone && !options.repair &&
-         IsViewFile(std::filesystem::path(capture.files[0].path).filename().string());
-}
-
 // Returns the path of the depth picture or matte of each frame. `path` is one file for all frames,
 // a folder or a pattern with a file for each frame, or empty.
 Result<std::vector<std::string>> FindPictures(const std::vector<std::string>& frames,
@@ -79,41 +72,6 @@ Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inpu
     frames[i].picture = name;
   }
   return frames;
-}
-
-Result<Frame> FrameFolders::Open(const MapOptions& options, const Positions& views, int threads,
-                                 const Change& change, Capture* capture) {
-  Frame frame;
-  frame.files.icc = std::move(capture->metadata.icc);
-  frame.files.colours = std::move(capture->metadata.colours);
-  frame.files.is_linear = capture->light_field.is_linear;
-  if (change || !IsReady(options, *capture)) {
-    if (Error error = Convert(options, views, threads, change, capture, &frame)) return error;
-    return frame;
-  }
-  frame.files.folder = capture->path;
-  frame.files.where = capture->map_path;
-  if (Error error = ReadDisparity(frame.files.folder).MoveTo(&frame.map)) return error;
-  frame.focus = FindSurface(frame.map);
-  return frame;
-}
-
-Error FrameFolders::Convert(const MapOptions& options, const Positions& views, int threads,
-                            const Change& change, Capture* capture, Frame* frame) {
-  Error error = folder_.path().empty() ? folder_.Create() : Error();
-  frame->files.folder = folder_.path() + "/" + std::to_string(count_++);
-  frame->files.where = MapName(*capture);
-  // The default focus must not depend on the repair of a photo's map, as in the command refocus.
-  if (!error && capture->photo) frame->focus = FindDefaultFocus(*capture);
-  if (!error) error = LoadInput(views, threads, capture);
-  if (!error && !capture->photo) frame->focus = FindDefaultFocus(*capture);
-  if (!error && change) error = change(capture);
-  if (!error) error = CareForMap(options, threads, capture);
-  if (error) return error;
-  ThreadRunner runner(threads);
-  error = SaveLightField(frame->files.folder, capture->light_field, &runner);
-  frame->map = std::move(capture->light_field.disparity);
-  return error;
 }
 
 namespace {

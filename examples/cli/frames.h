@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds and opens the frames of a video, which are inputs of any format, and pairs them with depth
-// pictures or mattes in a folder of their own. All frames are checked before work begins. Frames
-// that are not light-field folders are converted to light-field folders in a temporary folder.
+// pictures or mattes in a folder of their own. All frames are checked before work begins.
 #ifndef STARFOCUS_EXAMPLES_CLI_FRAMES_H_
 #define STARFOCUS_EXAMPLES_CLI_FRAMES_H_
 
@@ -11,10 +10,8 @@
 
 #include "examples/cli/input.h"
 #include "examples/cli/input_options.h"
-#include "examples/cli/lens_options.h"
 #include "platform/readers/map_survey.h"
 #include "platform/result.h"
-#include "platform/temporary_folder.h"
 
 namespace starfocus {
 
@@ -33,41 +30,6 @@ struct FrameSource {
 // stderr.
 Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inputs,
                                             const InputOptions& options, const std::string& out);
-
-struct FrameFiles {
-  std::string folder;         // light-field folder, which may be temporary
-  std::string where;          // name of the map for error messages
-  Bytes icc;                  // profile of the frame's colours; empty: none
-  ColourDescription colours;  // colours without a profile
-  bool is_linear = false;     // true if the codes of the views are proportional to light
-};
-
-struct Frame {
-  FrameFiles files;
-  FloatMap map;
-  DefaultFocus focus;
-};
-
-// Converts frames to light-field folders, and removes these folders at the end.
-class FrameFolders {
- public:
-  // Changes the map of a loaded frame before it is repaired.
-  using Change = std::function<Error(Capture* capture)>;
-
-  // Opens a frame whose input is already open. Converts the frame unless it is a light-field folder
-  // whose map needs no processing. Converted frames contain the views at the positions `views`, or
-  // all views if `views` is empty. `change` may be null.
-  Result<Frame> Open(const MapOptions& options, const Positions& views, int threads,
-                     const Change& change, Capture* capture);
-
- private:
-  // Loads the views and the map, processes the map, and writes the folder.
-  Error Convert(const MapOptions& options, const Positions& views, int threads,
-                const Change& change, Capture* capture, Frame* frame);
-
-  TemporaryFolder folder_;
-  int count_ = 0;  // converted frames
-};
 
 // Returns the options that open one frame.
 InputOptions OptionsOf(const InputOptions& options, const FrameSource& frame);

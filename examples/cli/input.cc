@@ -318,15 +318,19 @@ void TellNotes(const Capture& capture) {
   for (const std::string& note : capture.notes) TellNote(capture.path, note);
 }
 
-Error LoadInput(const Positions& views, int threads, Capture* capture) {
+Error CheckViews(const Positions& views, const Capture& capture) {
   for (const starfocus_position& view : views) {
-    // If a view is missing, report an error of the option --views.
-    if (SelectViewFiles(capture->path, capture->files, {view})) continue;
+    if (SelectViewFiles(capture.path, capture.files, {view})) continue;
     return Error::Usage(
         "--views",
-        "some of the " + std::to_string(capture->files.size()) + " views in " + capture->path,
+        "some of the " + std::to_string(capture.files.size()) + " views in " + capture.path,
         std::to_string(views.size()) + " views that include " + ViewName(view));
   }
+  return {};
+}
+
+Error LoadInput(const Positions& views, int threads, Capture* capture) {
+  if (Error error = CheckViews(views, *capture)) return error;
   ThreadRunner runner(threads);
   const Error error = LoadCapture(views, capture, &runner);
   TellUnusable(*capture);

@@ -58,6 +58,9 @@ void TellLost(const Capture& capture);
 // Calls ReadInput, TellNotes and TellLost.
 Result<Capture> OpenInput(const InputOptions& options);
 
+// Returns an error of the option --views unless the input has views at these positions.
+Error CheckViews(const Positions& views, const Capture& capture);
+
 // Reads the map, and the views at the positions `views`, or all views if `views` is empty. A
 // missing map is estimated from the loaded views, with a message on stderr.
 Error LoadInput(const Positions& views, int threads, Capture* capture);

@@ -244,9 +244,13 @@ Error CheckRenderer(const std::string& where, const LensPlan& plan, const Positi
                       "line-scan for the " + std::to_string(views.size()) + " views of " + where);
 }
 
-Result<starfocus_disparity_stats> PrepareDisparity(const std::string& where, const FloatMap& map) {
+Result<starfocus_disparity_stats> PrepareDisparity(const std::string& where, const FloatMap& map,
+                                                   bool may_have_holes) {
   const starfocus_disparity_stats stats = MeasureDisparity(map);
-  if (stats.invalid != 0) {
+  if (may_have_holes && stats.invalid == int64_t{map.width} * map.height) {
+    return Expected(where, "a map with finite disparities", "none");
+  }
+  if (!may_have_holes && stats.invalid != 0) {
     return Expected(where, "finite disparities only", FirstInvalid(map, stats.invalid));
   }
   const double largest = std::max(std::fabs(double(stats.min)), std::fabs(double(stats.max)));

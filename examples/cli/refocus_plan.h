@@ -61,8 +61,10 @@ void UseFocus(const DefaultFocus& focus, LensPlan* plan);
 // standard layout of 1, 5, 9 or 17 views.
 Error CheckRenderer(const std::string& where, const LensPlan& plan, const Positions& views);
 
-// Measures a map, which must not have unknown values. Error messages start with `where`.
-Result<starfocus_disparity_stats> PrepareDisparity(const std::string& where, const FloatMap& map);
+// Measures a map, which must not have unknown values, unless `may_have_holes` is true: then one
+// value must be known. Error messages start with `where`.
+Result<starfocus_disparity_stats> PrepareDisparity(const std::string& where, const FloatMap& map,
+                                                   bool may_have_holes = false);
 
 // Returns the disparity of the surface at a pixel of a picture of `width` x `height` pixels, or
 // nullopt if the map has no known values around the pixel. The map may have another size. Returns

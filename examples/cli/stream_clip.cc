@@ -7,9 +7,7 @@
 #include <utility>
 
 #include "examples/cli/frame_pattern.h"
-#include "examples/cli/frames.h"
 #include "examples/cli/input.h"
-#include "platform/progress.h"
 #include "platform/readers/matte_file.h"
 #include "platform/readers/pair.h"
 #include "platform/standard_stream.h"
@@ -156,22 +154,7 @@ Result<Capture> StreamClip::OpenMapOf(size_t frame, const MapSurvey* clip) {
   return capture;
 }
 
-Error StreamClip::Survey(const std::function<Error(size_t frame, const Capture&)>& visit) {
-  const size_t count = std::max<size_t>(maps(), 1);
-  Progress progress("measuring depth", 2 * static_cast<int64_t>(count));
-  Error error = SurveyClip(count, [&](size_t frame, const MapSurvey* clip) {
-                  progress.Step();
-                  return OpenMapOf(frame, clip);
-                }).MoveTo(&survey_);
-  for (size_t frame = 0; frame < count && !error; ++frame) {
-    const Result<Capture> capture = OpenMapOf(frame, &survey_);
-    error = capture ? visit(frame, *capture) : capture.error();
-    progress.Step();
-  }
-  return error;
-}
-
-Result<bool> StreamClip::Next(Capture* capture) {
+Result<bool> StreamClip::Next(const MapSurvey& clip, Capture* capture) {
   std::vector<uint8_t> planes;
   const size_t frame = reader_.frames();
   const Result<bool> has = reader_.Next(&planes);
@@ -180,7 +163,7 @@ Result<bool> StreamClip::Next(Capture* capture) {
     return Expected(where_, "at most " + std::to_string(maps()) + " frames, as many as maps",
                     "more");
   }
-  if (Error error = OpenMapOf(frame, &survey_).MoveTo(capture)) return error;
+  if (Error error = OpenMapOf(frame, &clip).MoveTo(capture)) return error;
   capture->light_field.planar = ToPlanar(header(), std::move(planes));
   return true;
 }

@@ -7,7 +7,6 @@
 #define STARFOCUS_EXAMPLES_CLI_STREAM_CLIP_H_
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -59,25 +58,21 @@ class StreamClip {
   // Returns the files that no output may overwrite.
   std::vector<std::string> Files() const;
 
-  // Measures all maps, and then calls `visit` with each map at the scale of the clip. The captures
-  // have no pixels, and their maps may have any size.
-  Error Survey(const std::function<Error(size_t frame, const Capture&)>& visit);
+  // Opens the map of a frame, which is interpreted by the figures of the clip, or by its own
+  // figures if `clip` is null. The capture has no pixels, and its map may have any size.
+  Result<Capture> OpenMapOf(size_t frame, const MapSurvey* clip);
 
-  // Reads the next frame and its map, which must be fitted to the frame and repaired. Returns false
-  // at the end.
-  Result<bool> Next(Capture* capture);
+  // Reads the next frame, and opens its map. Returns false at the end.
+  Result<bool> Next(const MapSurvey& clip, Capture* capture);
 
   // Prints a note if the stream had fewer frames than maps.
   void TellEnd() const;
 
  private:
-  Result<Capture> OpenMapOf(size_t frame, const MapSurvey* clip);
-
   std::string path_, where_;
   DepthOptions map_;
   Y4mReader reader_;
   MapTrack depths_, mattes_;
-  MapSurvey survey_;
 };
 
 }  // namespace starfocus

@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "examples/cli/estimate_run.h"
 #include "examples/cli/input.h"
 #include "platform/light_field.h"
+#include "platform/pfm.h"
+#include "platform/progress.h"
 #include "platform/text.h"
 
 namespace starfocus {
@@ -57,22 +61,6 @@ Error FindInput(const VideoOptions& options, Video* video) {
 
 namespace {
 
-Error CheckSize(const std::string& where, const FloatMap& map, const Video& video) {
-  if (map.width == video.width && map.height == video.height) return {};
-  return Expected(where,
-                  SizeText(video.width, video.height) + " pixels, the size of the first frame",
-                  SizeText(map.width, map.height));
-}
-
-// Measures the map of a frame, after filling its holes if requested.
-Result<starfocus_disparity_stats> Prepare(const VideoOptions& options, const std::string& where,
-                                          FloatMap* map) {
-  if (options.map.fill) {
-    if (Error error = FillHoles(where, map)) return error;
-  }
-  return PrepareDisparity(where, *map);
-}
-
 // Sets the aperture of all frames, or of each key, from the lens of the first frame.
 Error PlanApertures(const VideoOptions& options, const Capture& first, LensPlan* plan,
                     Video* video) {
@@ -107,23 +95,6 @@ Error FindKeys(size_t frame, const std::string& where, const FloatMap& map, Vide
   return {};
 }
 
-// Sets the focus of all frames from the first frame, unless there are keys.
-Error ChooseFirstFocus(const std::string& input, const DefaultFocus& focus, const FloatMap& map,
-                       LensPlan* plan, Video* video) {
-  if (!video->focus_keys.empty()) return {};
-  if (plan->focus_option.empty()) {
-    TellFocus(input, focus);
-    UseFocus(focus, plan);
-  }
-  if (!plan->foci.empty()) return {};
-  const Result<std::optional<double>> found =
-      FocusOfPixel("--focus-at", {plan->x, plan->y}, video->width, video->height, map);
-  if (!found) return found.error();
-  if (!*found) return Expected(input, "known disparities around the focus", "none");
-  plan->foci = {**found};
-  return {};
-}
-
 // Returns true if the maps of a video are stabilised: those that are repaired by default, and
 // others if an option asks for it.
 bool WillStabilise(const VideoOptions& options, const Capture& capture) {
@@ -133,138 +104,187 @@ bool WillStabilise(const VideoOptions& options, const Capture& capture) {
 
 // Stabilises the map of the next frame, if the maps of the video are stabilised.
 Error StabiliseMap(const VideoOptions& options, const std::string& where, int threads,
-                   DisparityRange range, Capture* capture, Video* video) {
+                   DisparityRange range, Capture* capture,
+                   std::unique_ptr<MapStabiliser>* stabiliser) {
   if (!WillStabilise(options, *capture)) return {};
-  if (video->stabiliser == nullptr) {
-    video->stabiliser = std::make_unique<MapStabiliser>(threads, range);
-  }
-  return video->stabiliser->Stabilise(where, &capture->light_field, nullptr);
+  if (*stabiliser == nullptr) *stabiliser = std::make_unique<MapStabiliser>(threads, range);
+  return (*stabiliser)->Stabilise(where, &capture->light_field, nullptr);
 }
 
-// Opens a frame. The first frame sets the aperture and the views of all frames.
-Result<Frame> OpenFrame(const VideoOptions& options, const FrameSource& source, LensPlan* plan,
-                        Video* video) {
-  InputOptions one = OptionsOf(options.input, source);
+// Opens a frame, whose depth map is interpreted by the figures of the clip, or by its own figures
+// if `clip` is null. Frames of a stream have no pixels.
+Result<Capture> OpenFrame(const VideoOptions& options, size_t frame, const MapSurvey* clip,
+                          Video* video) {
+  if (video->is_stream) return video->stream.OpenMapOf(frame, clip);
+  InputOptions one = OptionsOf(options.input, video->sources[frame]);
   one.kept = &video->computed;
-  one.map.clip = &video->survey;
-  Result<Capture> capture = ReadInput(one);
-  if (!capture) return capture.error();
-  TellNotes(*capture);
-  TellLost(*capture);
-  const bool is_first = video->frames.empty();
-  if (is_first) {
-    if (Error error = PlanApertures(options, *capture, plan, video)) return error;
-  }
-  const int threads = plan->options.threads;
-  FrameFolders::Change stabilise;
-  if (WillStabilise(options, *capture)) {
-    stabilise = [&](Capture* loaded) {
-      if (!is_first) {
-        Error error = CheckSize(source.path, loaded->light_field.disparity, *video);
-        if (error) return error;
-      }
-      return StabiliseMap(options, source.path, threads,
-                          {-STARFOCUS_MAX_DISPARITY, STARFOCUS_MAX_DISPARITY}, loaded, video);
-    };
-  }
-  Result<Frame> frame = video->converted.Open(
-      options.map, is_first ? plan->options.views : video->views, threads, stabilise, &*capture);
-  if (!frame) return frame;
-  const auto chosen =
-      ChooseViewFiles(frame->files.folder, is_first ? plan->options.views : video->views);
-  if (!chosen) return chosen.error();
-  if (!is_first) return frame;
-  for (const ViewFile& file : *chosen) video->views.push_back(file.position);
-  if (Error error = CheckRenderer(source.path, *plan, video->views)) return error;
-  return frame;
+  one.map.clip = clip;
+  return ReadInput(one);
 }
 
-// Adds a frame. The first frame sets the size and the focus of all frames.
-Error AddFrame(const VideoOptions& options, const std::string& input, Frame frame, LensPlan* plan,
-               Video* video) {
-  const bool is_first = video->frames.empty();
-  if (is_first) video->width = frame.map.width, video->height = frame.map.height;
-  if (Error error = CheckSize(input, frame.map, *video)) return error;
-  if (!is_first && frame.files.is_linear != video->frames[0].is_linear) {
-    return Expected(input, "light coded as in the first frame",
-                    frame.files.is_linear ? "linear light" : "codes that are not linear");
+// Loads the views and the map of a frame. A map that is estimated is kept in a temporary file.
+Error LoadFrame(size_t frame, const Positions& views, int threads, Video* video, Capture* capture) {
+  if (!capture->map_path.empty()) return LoadInput(views, threads, capture);
+  const std::string kept = video->estimates.path() + "/" + std::to_string(frame) + ".pfm";
+  std::error_code ignored;
+  if (!video->estimates.path().empty() && std::filesystem::exists(kept, ignored)) {
+    Error error = LoadCapture(views, capture);
+    return error ? error : LoadMap(kept, &capture->light_field);
   }
-  const Result<starfocus_disparity_stats> stats = Prepare(options, frame.files.where, &frame.map);
-  if (!stats) return stats.error();
-  Error error = FindKeys(video->frames.size(), input, frame.map, video);
-  if (!error && is_first) {
-    error = ChooseFirstFocus(input, frame.focus, frame.map, plan, video);
-    video->stats = *stats;
-  }
+  Error error = LoadInput(views, threads, capture);
+  if (!error && video->estimates.path().empty()) error = video->estimates.Create();
   if (error) return error;
-  video->stats.min = std::min(video->stats.min, stats->min);
-  video->stats.max = std::max(video->stats.max, stats->max);
-  video->frames.push_back(std::move(frame.files));
-  return {};
+  return WritePfm(video->estimates.path() + "/" + std::to_string(frame) + ".pfm",
+                  capture->light_field.disparity);
 }
 
-// Opens all frames and measures their maps.
-Error ScanFiles(const VideoOptions& options, LensPlan* plan, Video* video) {
-  InputOptions input = options.input;
-  input.kept = &video->computed;
-  const auto open = [&](size_t frame, const MapSurvey* clip) {
-    InputOptions one = OptionsOf(input, video->sources[frame]);
-    one.map.clip = clip;
-    return ReadInput(one);
-  };
-  if (Error error = SurveyClip(video->sources.size(), open).MoveTo(&video->survey)) return error;
-  for (const FrameSource& source : video->sources) {
-    Result<Frame> frame = OpenFrame(options, source, plan, video);
-    if (!frame) return frame.error();
-    if (Error error = AddFrame(options, source.path, std::move(*frame), plan, video)) return error;
-  }
-  return {};
-}
+// Opens and measures all frames before the first frame is refocused.
+class Scan {
+ public:
+  Scan(const VideoOptions& options, LensPlan* plan, Video* video)
+      : options_(options), plan_(*plan), video_(*video) {}
 
-// Measures a map of a stream. The first map sets the focus and the aperture of all frames.
-Error AddMap(const VideoOptions& options, size_t frame, const Capture& map, LensPlan* plan,
-             Video* video) {
-  const bool is_first = frame == 0;
-  const FloatMap& disparity = map.light_field.disparity;
-  Result<starfocus_disparity_stats> stats = PrepareDisparity(map.path, disparity);
-  if (!stats) return stats.error();
-  if (WillRepair(options.map, map)) {
-    stats->min = std::max(stats->min - kRepairReach, -STARFOCUS_MAX_DISPARITY);
-    stats->max = std::min(stats->max + kRepairReach, STARFOCUS_MAX_DISPARITY);
+  Error Run() {
+    const size_t views = plan_.options.views.size();
+    if (video_.is_stream && views > 1) {
+      return Error::Usage("--views", "1, because a stream has one view",
+                          std::to_string(views) + " views");
+    }
+    const size_t count = std::max<size_t>(video_.count(), 1);
+    Progress progress("measuring depth", 2 * static_cast<int64_t>(count));
+    const auto open = [&](size_t frame, const MapSurvey* clip) {
+      progress.Step();
+      return OpenFrame(options_, frame, clip, &video_);
+    };
+    frames_ahead_ = FramesAhead();
+    Error error = SurveyClip(count, open).MoveTo(&video_.survey);
+    for (size_t frame = 0; frame < count && !error; ++frame) {
+      Result<Capture> capture = open(frame, &video_.survey);
+      error = capture ? Add(frame, &*capture) : capture.error();
+    }
+    return error;
   }
-  TellNotes(map);
-  Error error = FindKeys(frame, map.path, disparity, video);
-  if (!error && is_first) {
-    video->stats = *stats;
-    error = PlanApertures(options, map, plan, video);
-    const DefaultFocus focus = FindDefaultFocus(map);
-    if (!error) error = ChooseFirstFocus(video->stream.where(), focus, disparity, plan, video);
-  }
-  video->stats.min = std::min(video->stats.min, stats->min);
-  video->stats.max = std::max(video->stats.max, stats->max);
-  return error;
-}
 
-// Measures the maps of a stream.
-Error ScanStream(const VideoOptions& options, LensPlan* plan, Video* video) {
-  video->width = video->stream.header().width;
-  video->height = video->stream.header().height;
-  video->views = {{0, 0}};
-  const Positions& wanted = plan->options.views;
-  if (wanted.size() > 1) {
-    return Error::Usage("--views", "1, because a stream has one view",
-                        std::to_string(wanted.size()) + " views");
+ private:
+  // Returns the number of frames whose maps are stabilised already here, because the focus depends
+  // on the last of them. Streams are read only once, so that their focus depends on maps as they
+  // come.
+  size_t FramesAhead() const {
+    if (video_.is_stream) return 0;
+    if (video_.focus_keys.empty()) return plan_.foci.empty() ? 1 : 0;
+    size_t frames = 0;
+    for (const FocusKey& key : video_.focus_keys) {
+      if (key.at) frames = key.frame + 1;
+    }
+    return frames;
   }
-  if (Error error = CheckRenderer(video->stream.where(), *plan, video->views)) return error;
-  return video->stream.Survey(
-      [&](size_t frame, const Capture& map) { return AddMap(options, frame, map, plan, video); });
-}
+
+  // Adds a frame. The first frame sets the size, the views, the aperture and, unless there are
+  // keys, the focus of all frames.
+  Error Add(size_t frame, Capture* capture) {
+    const bool is_first = frame == 0;
+    TellNotes(*capture);
+    TellLost(*capture);
+    Error error = is_first ? TakeViews(*capture)
+                           : SelectViewFiles(capture->path, capture->files, video_.views).error();
+    if (!error && is_first) error = PlanApertures(options_, *capture, &plan_, &video_);
+    if (!error && !capture->photo) error = Load(frame, capture);
+    if (error) return error;
+    const LightField& light_field = capture->light_field;
+    if (is_first) {
+      video_.width = light_field.views[0].width;
+      video_.height = light_field.views[0].height;
+      video_.is_linear = light_field.is_linear;
+      // The default focus does not depend on the repair of a map, as in the command refocus.
+      if (video_.focus_keys.empty() && plan_.focus_option.empty()) {
+        const DefaultFocus focus = FindDefaultFocus(*capture);
+        TellFocus(video_.first(), focus);
+        UseFocus(focus, &plan_);
+      }
+    }
+    if (light_field.is_linear != video_.is_linear) {
+      return Expected(capture->path, "light coded as in the first frame",
+                      light_field.is_linear ? "linear light" : "codes that are not linear");
+    }
+    error = AddRange(is_first, *capture);
+    if (!error && frame < frames_ahead_) error = FinishMap(frame, capture);
+    if (!error) error = FindKeys(frame, capture->path, light_field.disparity, &video_);
+    if (!error && is_first) error = ChooseFirstFocus(capture->path, light_field.disparity);
+    return error;
+  }
+
+  // Sets the views of all frames.
+  Error TakeViews(const Capture& first) {
+    video_.views = plan_.options.views;
+    if (Error error = CheckViews(video_.views, first)) return error;
+    if (video_.views.empty()) {
+      for (const ViewFile& file : first.files) video_.views.push_back(file.position);
+    }
+    return CheckRenderer(video_.first(), plan_, video_.views);
+  }
+
+  // Loads a frame with all its views, or only the centre view if this suffices.
+  Error Load(size_t frame, Capture* capture) {
+    const bool needs_views = capture->map_path.empty() || frame < frames_ahead_;
+    const Positions views = needs_views ? video_.views : Positions{{0, 0}};
+    return LoadFrame(frame, views, plan_.options.threads, &video_, capture);
+  }
+
+  // Adds the disparities of a map as it comes, and what a repair may add, to those of the video.
+  Error AddRange(bool is_first, const Capture& capture) {
+    const bool repairs = WillRepair(options_.map, capture);
+    const bool fills = repairs || options_.map.fill || capture.care != MapCare::kNone;
+    Result<starfocus_disparity_stats> stats =
+        PrepareDisparity(MapName(capture), capture.light_field.disparity, fills);
+    if (!stats) return stats.error();
+    if (repairs) {
+      stats->min = std::max(stats->min - kRepairReach, -STARFOCUS_MAX_DISPARITY);
+      stats->max = std::min(stats->max + kRepairReach, STARFOCUS_MAX_DISPARITY);
+    }
+    if (is_first) video_.stats = *stats;
+    video_.stats.min = std::min(video_.stats.min, stats->min);
+    video_.stats.max = std::max(video_.stats.max, stats->max);
+    return {};
+  }
+
+  // Stabilises a map, and repairs it if the focus depends on it.
+  Error FinishMap(size_t frame, Capture* capture) {
+    const std::vector<FocusKey>& keys = video_.focus_keys;
+    const int threads = plan_.options.threads;
+    Error error = capture->photo ? Load(frame, capture) : Error();
+    if (!error) {
+      error =
+          StabiliseMap(options_, capture->path, threads,
+                       {-STARFOCUS_MAX_DISPARITY, STARFOCUS_MAX_DISPARITY}, capture, &stabiliser_);
+    }
+    const bool is_key = keys.empty() || std::any_of(keys.begin(), keys.end(), [&](auto& key) {
+                          return key.frame == frame && key.at;
+                        });
+    return !error && is_key ? CareForMap(options_.map, threads, capture) : error;
+  }
+
+  // Sets the focus of all frames from the map of the first frame, unless it is known.
+  Error ChooseFirstFocus(const std::string& path, const FloatMap& map) {
+    if (!video_.focus_keys.empty() || !plan_.foci.empty()) return {};
+    const Result<std::optional<double>> found =
+        FocusOfPixel("--focus-at", {plan_.x, plan_.y}, video_.width, video_.height, map);
+    if (!found) return found.error();
+    if (!*found) return Expected(path, "known disparities around the focus", "none");
+    plan_.foci = {**found};
+    return {};
+  }
+
+  const VideoOptions& options_;
+  LensPlan& plan_;
+  Video& video_;
+  size_t frames_ahead_ = 0;
+  std::unique_ptr<MapStabiliser> stabiliser_;
+};
 
 }  // namespace
 
 Error ScanVideo(const VideoOptions& options, LensPlan* plan, Video* video) {
-  Error error =
-      video->is_stream ? ScanStream(options, plan, video) : ScanFiles(options, plan, video);
+  Error error = Scan(options, plan, video).Run();
   if (error) return error;
   if (!video->focus_keys.empty()) {
     plan->focus_option = "--focus-keys";
@@ -277,37 +297,36 @@ Error ScanVideo(const VideoOptions& options, LensPlan* plan, Video* video) {
   return {};
 }
 
-Result<bool> ReadFrame(const VideoOptions& options, Video* video, ClipFrame* frame) {
+Result<bool> ReadFrame(const VideoOptions& options, const LensPlan& plan, Video* video,
+                       ClipFrame* frame) {
   const size_t index = frame->index;
-  Capture& capture = frame->capture;
+  Capture* const capture = &frame->capture;
   if (video->is_stream) {
     frame->where = video->stream.where() + ", frame " + std::to_string(index);
     frame->picture = NumberedPicture(index);
-    return video->stream.Next(&capture);
+    const Result<bool> has = video->stream.Next(video->survey, capture);
+    if (!has || !*has) return has;
+  } else {
+    if (index == video->sources.size()) return false;
+    frame->where = video->sources[index].path;
+    frame->picture = video->sources[index].picture;
+    Error error = OpenFrame(options, index, &video->survey, video).MoveTo(capture);
+    if (error) return error;
   }
-  if (index == video->frames.size()) return false;
-  const FrameFiles& files = video->frames[index];
-  frame->where = video->sources[index].path;
-  frame->picture = video->sources[index].picture;
-  Error error = LoadLightField(files.folder, video->views).MoveTo(&capture.light_field);
+  Error error = LoadFrame(index, video->views, plan.options.threads, video, capture);
   if (error) return error;
-  capture.light_field.is_linear = files.is_linear;
-  capture.metadata.icc = files.icc;
-  capture.metadata.colours = files.colours;
-  if (Error wrong = CheckSize(frame->where, capture.light_field.disparity, *video)) return wrong;
-  error = Prepare(options, files.where, &capture.light_field.disparity).error();
-  if (error) return error;
-  return true;
+  const LightField& light_field = capture->light_field;
+  if (light_field.width() == video->width && light_field.height() == video->height) return true;
+  return Expected(frame->where, SizeText(video->width, video->height) + " pixels as before",
+                  SizeText(light_field.width(), light_field.height()));
 }
 
-Result<bool> FitFrame(const VideoOptions& options, const LensPlan& plan, Video* video,
-                      ClipFrame* frame) {
-  Capture& capture = frame->capture;
-  const int threads = plan.options.threads;
+Result<bool> StabiliseFrame(const VideoOptions& options, const LensPlan& plan, Video* video,
+                            ClipFrame* frame) {
   const DisparityRange range = {static_cast<float>(video->stats.min),
                                 static_cast<float>(video->stats.max)};
-  Error error = LoadInput({}, threads, &capture);
-  if (!error) error = StabiliseMap(options, frame->where, threads, range, &capture, video);
+  Error error = StabiliseMap(options, frame->where, plan.options.threads, range, &frame->capture,
+                             &video->stabiliser);
   if (error) return error;
   return true;
 }
@@ -315,9 +334,7 @@ Result<bool> FitFrame(const VideoOptions& options, const LensPlan& plan, Video* 
 Result<bool> RepairFrame(const VideoOptions& options, const LensPlan& plan, ClipFrame* frame) {
   Capture& capture = frame->capture;
   Error error = CareForMap(options.map, plan.options.threads, &capture);
-  if (!error) {
-    error = Prepare(options, frame->where, &capture.light_field.disparity).error();
-  }
+  if (!error) error = PrepareDisparity(frame->where, capture.light_field.disparity).error();
   if (error) return error;
   return true;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The frames of a video, for the command `video`: opens the files of the frames or a stream,
-// measures all maps, and plans the lens of each frame before the first frame is refocused.
+// measures all maps, and plans the lens of each frame before the first frame is refocused. Maps are
+// stabilised and repaired when their frame is refocused, so that at most a few frames are in
+// memory.
 #ifndef STARFOCUS_EXAMPLES_CLI_VIDEO_CLIP_H_
 #define STARFOCUS_EXAMPLES_CLI_VIDEO_CLIP_H_
 
@@ -17,6 +19,7 @@
 #include "examples/cli/stages.h"
 #include "examples/cli/stream_clip.h"
 #include "platform/result.h"
+#include "platform/temporary_folder.h"
 
 namespace starfocus {
 
@@ -37,12 +40,12 @@ struct Video {
   std::vector<FrameSource> sources;
   MapSurvey survey;  // of the depth maps of all frames
   KeptPictures computed;
-  FrameFolders converted;
+  TemporaryFolder estimates;                  // of maps that were estimated from views
   std::unique_ptr<MapStabiliser> stabiliser;  // null before the first map that is stabilised
-  std::vector<FrameFiles> frames;             // frames that are open, in the order of `sources`
   int width = 0, height = 0;
   Positions views;
-  starfocus_disparity_stats stats = {};  // over all frames
+  bool is_linear = false;  // true if the codes of the frames are proportional to light
+  starfocus_disparity_stats stats = {};  // over all frames, and what a repair may add
   double max_blur = 0;
   std::vector<FocusKey> focus_keys;
   std::vector<ApertureKey> aperture_keys;
@@ -68,13 +71,11 @@ Error CheckKeyFrames(const Video& video);
 // Opens all frames, or all maps of a stream, and fits the lens to them.
 Error ScanVideo(const VideoOptions& options, LensPlan* plan, Video* video);
 
-// Stage: reads a frame with its map.
-Result<bool> ReadFrame(const VideoOptions& options, Video* video, ClipFrame* frame);
-
-// Stages of a stream: fit the map of a frame to the frame and stabilise it; repair it. Maps of
-// files have been stabilised and repaired when the files were opened.
-Result<bool> FitFrame(const VideoOptions& options, const LensPlan& plan, Video* video,
-                      ClipFrame* frame);
+// Stages: read a frame with its map; stabilise the map; repair the map.
+Result<bool> ReadFrame(const VideoOptions& options, const LensPlan& plan, Video* video,
+                       ClipFrame* frame);
+Result<bool> StabiliseFrame(const VideoOptions& options, const LensPlan& plan, Video* video,
+                            ClipFrame* frame);
 Result<bool> RepairFrame(const VideoOptions& options, const LensPlan& plan, ClipFrame* frame);
 
 }  // namespace starfocus

@@ -191,11 +191,10 @@ Result<Written> RefocusFrames(const VideoOptions& options, const LensPlan& plan,
   Refocusing refocusing(options, plan, *video);
   const std::unique_ptr<ClipOutput> output = MakeClipOutput(options.out, HeaderOf(*video));
   std::vector<Stage> stages;
-  stages.emplace_back([&](ClipFrame* frame) { return ReadFrame(options, video, frame); });
-  if (video->is_stream) {
-    stages.emplace_back([&](ClipFrame* frame) { return FitFrame(options, plan, video, frame); });
-    stages.emplace_back([&](ClipFrame* frame) { return RepairFrame(options, plan, frame); });
-  }
+  stages.emplace_back([&](ClipFrame* frame) { return ReadFrame(options, plan, video, frame); });
+  stages.emplace_back(
+      [&](ClipFrame* frame) { return StabiliseFrame(options, plan, video, frame); });
+  stages.emplace_back([&](ClipFrame* frame) { return RepairFrame(options, plan, frame); });
   stages.emplace_back([&](ClipFrame* frame) { return refocusing.Refocus(frame); });
   stages.emplace_back([&](ClipFrame* frame) -> Result<bool> {
     Result<bool> open = output->Write(*frame);
