@@ -30,9 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns the extension of a picture that keeps the bits of the file `input`, or an empty string if
-// the samples of the file have 8 bits.
-std::string DeepExtensionOf(const std::string& input) {
+// Returns the extension for a file, or an empty string if its samples have 8 bits.
+std::string ExtensionOfFile(const std::string& input) {
   const std::string extension = LowerExtension(input);
   if (extension == ".jpg" || extension == ".jpeg" || extension == ".png") return "";
   const Result<Bytes> file = ReadFileIf(input, MayBePicture);
@@ -43,22 +42,13 @@ std::string DeepExtensionOf(const std::string& input) {
   return IsDeepExtension(extension) && !CheckDeepEncoder(output) ? extension : ".png";
 }
 
-// Returns the extension of the picture of a light field.
-std::string ExtensionOfFolder(const std::string& folder, bool has_8_bits) {
-  const Result<std::vector<ViewFile>> views = FindViewFiles(folder);
-  const bool is_exr = views && LowerExtension(views->front().path) == ".exr";
-  return is_exr && !has_8_bits ? ".exr" : ".png";
-}
-
 std::string OutputOf(const std::string& input, const std::string& folder, bool has_8_bits) {
   std::error_code ignored;
-  std::string extension;
-  if (fs::is_directory(input, ignored)) {
-    extension = ExtensionOfFolder(input, has_8_bits);
-  } else {
-    if (!has_8_bits) extension = DeepExtensionOf(input);
+  std::string extension = has_8_bits ? "" : DeepExtensionOf(input);
+  if (extension.empty() && fs::is_directory(input, ignored)) extension = ".png";
+  if (extension.empty()) {
     const bool kept = IsPictureExtension(LowerExtension(input));
-    if (extension.empty()) extension = kept ? fs::path(input).extension().string() : ".jpg";
+    extension = kept ? fs::path(input).extension().string() : ".jpg";
   }
   return (fs::path(folder) / (NameOfInput(input) + extension)).string();
 }
@@ -118,6 +108,13 @@ std::vector<std::string> RunItems(const std::vector<BatchItem>& items, int jobs,
 }
 
 }  // namespace
+
+std::string DeepExtensionOf(const std::string& input) {
+  std::error_code ignored;
+  if (!fs::is_directory(input, ignored)) return ExtensionOfFile(input);
+  const Result<std::vector<ViewFile>> views = FindViewFiles(input);
+  return views && LowerExtension(views->front().path) == ".exr" ? ".exr" : "";
+}
 
 Result<std::optional<Batch>> PlanBatch(const std::vector<std::string>& inputs,
                                        const std::string& out, bool has_command, bool has_8_bits) {

@@ -92,6 +92,10 @@ struct Batch {
   std::vector<SkippedPath> skipped;
 };
 
+// Returns the extension of a picture that keeps the bits of an input, a file or a light field. The
+// result is empty if the samples of a file have 8 bits, or if the picture of a light field is PNG.
+std::string DeepExtensionOf(const std::string& input);
+
 // Chooses the inputs and the output file of each input if the command writes pictures to the folder
 // `out`. This is the case if there are several inputs, if `out` is an existing folder or ends with
 // "/", or if the input is a folder of photographs and `out` has no extension. Otherwise returns

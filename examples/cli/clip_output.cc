@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "examples/cli/deep_output.h"
 #include "examples/command_line/program.h"
 #include "platform/file.h"
 #include "platform/folder.h"
@@ -41,7 +42,10 @@ class FolderOutput : public ClipOutput {
   Result<bool> Write(const ClipFrame& frame) override {
     if (Error error = frame.index == 0 ? made_.Create(folder_) : Error()) return error;
     const std::string path = (std::filesystem::path(folder_) / frame.picture).string();
-    if (Error error = WriteImage(path, frame.result->picture, OptionsFor(frame))) return error;
+    const bool is_deep = !frame.result->deep.samples.empty();
+    Error error = is_deep ? WriteDeepResult(path, OptionsFor(frame), frame.capture, *frame.result)
+                          : WriteImage(path, frame.result->picture, OptionsFor(frame));
+    if (error) return error;
     return true;
   }
 

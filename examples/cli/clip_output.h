@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Outputs of `video`: a folder of PNG pictures, a Y4M stream on standard output, or an animation in
+// Outputs of `video`: a folder of pictures, a Y4M stream on standard output, or an animation in
 // WebP.
 #ifndef STARFOCUS_EXAMPLES_CLI_CLIP_OUTPUT_H_
 #define STARFOCUS_EXAMPLES_CLI_CLIP_OUTPUT_H_

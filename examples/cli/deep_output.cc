@@ -83,7 +83,7 @@ void TellLostGainMap(const OutputOptions& output, bool single, const Capture& ca
   if (capture.gain_map.levels.empty() || !capture.light_field.deep.empty()) return;
   if (single && WritesGainMap(output, capture)) return;
   const char* reason = output.depth_photo ? "depth photos have none"
-                       : !single          ? "pictures of sweeps have none"
+                       : !single          ? "sweeps, animations and streams have none"
                                           : ".jpg, .exr, .avif and .heic files keep its light";
   TellNote(capture.path, std::string("the gain map is left out; ") + reason);
 }

@@ -126,7 +126,9 @@ void EngineRun::MakePicture(const EngineTask& task, EngineResult* result) {
     result->picture = Image(width, height);
     return;
   }
-  const DeepImage& first = task.light_field->deep[0];
+  const std::vector<DeepImage>& views = task.light_field->deep;
+  const DeepImage codes;  // of 16 bits
+  const DeepImage& first = views.empty() ? codes : views[0];
   result->deep = DeepImage(width, height, first.channels);
   result->deep.is_half = first.is_half;
   result->deep.transfer = first.transfer;

@@ -60,7 +60,8 @@ struct EngineTask {
   bool stream = false;  // true to push and pull rows instead of whole pictures
   // True: the engine reads light_field->deep. `config` must have STARFOCUS_FEATURE_DEEP.
   bool deep_views = false;
-  // True: the picture has the kind of the first deep view. False: it has 8 bits.
+  // True: the picture has the kind of the first deep view, or codes of 16 bits without deep views.
+  // False: it has 8 bits.
   bool deep_picture = false;
   // True: the picture has the kind of `planar`, of which only the kind is read.
   bool planar_picture = false;

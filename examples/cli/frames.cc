@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "examples/cli/batch.h"
 #include "examples/cli/frame_pattern.h"
 #include "examples/cli/input.h"
 #include "platform/file.h"
@@ -38,7 +39,8 @@ Result<std::vector<std::string>> FindPictures(const std::vector<std::string>& fr
 }  // namespace
 
 Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inputs,
-                                            const InputOptions& options, const std::string& out) {
+                                            const InputOptions& options, const std::string& out,
+                                            bool has_8_bits) {
   std::vector<std::string> paths = inputs;
   if (std::find(paths.begin(), paths.end(), "-") != paths.end()) {
     return Error::Usage("SRC", "one stream, or files or folders as frames", "- and others");
@@ -61,14 +63,17 @@ Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inpu
   std::vector<FrameSource> frames;
   std::set<std::string> names;
   for (size_t i = 0; i < paths.size(); ++i) {
-    frames.push_back({paths[i], depths[i], mattes[i], NameOfInput(paths[i]) + ".png"});
+    const std::string deep = has_8_bits ? "" : DeepExtensionOf(paths[i]);
+    const std::string extension = deep.empty() ? ".png" : deep;
+    frames.push_back({paths[i], depths[i], mattes[i], NameOfInput(paths[i]) + extension});
     names.insert(frames[i].picture);
   }
   if (names.size() == frames.size()) return frames;
   // Inputs of different folders have equal names, so their pictures are numbered.
   for (size_t i = 0; i < frames.size(); ++i) {
-    char name[32];
-    std::snprintf(name, sizeof name, "frame_%04zu.png", i);
+    const std::string extension = LowerExtension(frames[i].picture);
+    char name[40];
+    std::snprintf(name, sizeof name, "frame_%04zu%s", i, extension.c_str());
     frames[i].picture = name;
   }
   return frames;

@@ -26,10 +26,12 @@ struct FrameSource {
 // photos and light fields in the folder in natural order, without the folder `out`. A row of
 // pictures with numbers in their names is a clip and not a light field. A pattern such as
 // "in/%05d.png" (frame_pattern.h) means all its files. If options.depth or options.matte is a
-// folder or a pattern, each frame gets one of its pictures. Prints other files in the folders to
-// stderr.
+// folder or a pattern, each frame gets one of its pictures. Output pictures are PNG or, unless
+// `has_8_bits` is true, have the format that keeps the bits of the frame (DeepExtensionOf). Prints
+// other files in the folders to stderr.
 Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inputs,
-                                            const InputOptions& options, const std::string& out);
+                                            const InputOptions& options, const std::string& out,
+                                            bool has_8_bits);
 
 // Returns the options that open one frame.
 InputOptions OptionsOf(const InputOptions& options, const FrameSource& frame);

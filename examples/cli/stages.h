@@ -23,7 +23,7 @@ struct ClipFrame {
   std::string where;    // name of the frame for messages
   std::string picture;  // file name of its picture in an output folder
   // The light field, with the metadata of the picture. The stage that refocuses the frame takes the
-  // light field out.
+  // light field out, except for its deep_colours.
   Capture capture;
   std::shared_ptr<const EngineResult> result;  // null before the frame is refocused
 };

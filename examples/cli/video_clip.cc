@@ -23,6 +23,13 @@ std::string NumberedPicture(size_t frame) {
   return name;
 }
 
+bool HasDeepCodes(const LightField& light_field) {
+  if (light_field.deep.empty()) return false;
+  const DeepImage& centre = light_field.deep[0];
+  return centre.bits > 8 && centre.channels == 3 && !centre.is_half &&
+         centre.transfer == STARFOCUS_TRANSFER_SRGB;
+}
+
 Error ReadLensKeys(const VideoOptions& options, Video* video) {
   const LensOptions& lens = options.lens;
   if (!options.keys.focus.empty() && (lens.focus || lens.focus_at || lens.focus_range)) {
@@ -56,7 +63,8 @@ Error CheckKeyFrames(const Video& video) {
 Error FindInput(const VideoOptions& options, Video* video) {
   video->is_stream = IsStream(options.inputs);
   if (video->is_stream) return video->stream.Open(options.inputs[0], options.input);
-  return FindFrames(options.inputs, options.input, options.out).MoveTo(&video->sources);
+  return FindFrames(options.inputs, options.input, options.out, options.lens.highlights > 1)
+      .MoveTo(&video->sources);
 }
 
 namespace {
@@ -184,7 +192,6 @@ class Scan {
   Error Add(size_t frame, Capture* capture) {
     const bool is_first = frame == 0;
     TellNotes(*capture);
-    TellLost(*capture);
     Error error = is_first ? TakeViews(*capture)
                            : SelectViewFiles(capture->path, capture->files, video_.views).error();
     if (!error && is_first) error = PlanApertures(options_, *capture, &plan_, &video_);
@@ -195,6 +202,7 @@ class Scan {
       video_.width = light_field.views[0].width;
       video_.height = light_field.views[0].height;
       video_.is_linear = light_field.is_linear;
+      video_.is_deep = HasDeepCodes(light_field) && plan_.options.highlights <= 1;
       // The default focus does not depend on the repair of a map, as in the command refocus.
       if (video_.focus_keys.empty() && plan_.focus_option.empty()) {
         const DefaultFocus focus = FindDefaultFocus(*capture);

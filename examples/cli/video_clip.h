@@ -45,6 +45,7 @@ struct Video {
   int width = 0, height = 0;
   Positions views;
   bool is_linear = false;  // true if the codes of the frames are proportional to light
+  bool is_deep = false;    // true if the first frame has codes of more than 8 bits
   starfocus_disparity_stats stats = {};  // over all frames, and what a repair may add
   double max_blur = 0;
   std::vector<FocusKey> focus_keys;
@@ -58,6 +59,10 @@ struct Video {
 
 // Returns the name of the picture of a frame of a stream.
 std::string NumberedPicture(size_t frame);
+
+// Returns true if the centre view has codes of sRGB of more than 8 bits, without alpha. A Y4M
+// stream of such pictures has 10 bits.
+bool HasDeepCodes(const LightField& light_field);
 
 // Reads the keys, and checks that no other option sets what they set.
 Error ReadLensKeys(const VideoOptions& options, Video* video);

@@ -11,6 +11,7 @@
 
 #include "examples/cli/clip_output.h"
 #include "examples/cli/commands.h"
+#include "examples/cli/deep_output.h"
 #include "examples/cli/engine_run.h"
 #include "examples/cli/lens_keys.h"
 #include "examples/cli/refocus_output.h"
@@ -23,6 +24,7 @@
 #include "platform/helper/decoder_threads.h"
 #include "platform/image_io.h"
 #include "platform/standard_stream.h"
+#include "platform/writers/deep_picture.h"
 #include "platform/y4m.h"
 
 namespace starfocus {
@@ -69,7 +71,8 @@ Error CheckFolder(const VideoOptions& options, const std::vector<std::string>& p
   Error error = CheckFolderOutput({"--output", out});
   if (!error && fs::is_directory(out, failure)) {
     for (size_t i = 0; i < pictures.size() && !error; ++i) {
-      error = CheckImageOutput(PicturePath(out, pictures[i]));
+      const std::string path = PicturePath(out, pictures[i]);
+      error = KeepsBits(path) ? CheckDeepOutput(path) : CheckImageOutput(path);
     }
   } else if (!error) {
     error = CheckOutputPath(out.substr(0, out.find_last_not_of('/') + 1));
@@ -110,6 +113,7 @@ Y4mHeader HeaderOf(const Video& video) {
   Y4mHeader header;
   header.width = video.width;
   header.height = video.height;
+  if (video.is_deep) header.bits = 10, header.chroma = "420p10";
   return header;
 }
 
@@ -123,11 +127,14 @@ class Refocusing {
         run_(plan.options.threads, static_cast<int>(video.count())) {}
 
   Result<bool> Refocus(ClipFrame* frame) {
+    EngineTask task = TaskOf(frame->index, frame->capture.light_field);
+    if (Error error = ChooseFrameBits(frame, &task)) return error;
     LightField now = std::move(frame->capture.light_field);
-    const EngineTask task = TaskOf(frame->index, now);
-    if (Error error = frame->index == 0 ? run_.Start(frame->where, task) : Error()) return error;
-    // The engine compares pictures in RGB that have the same lens.
-    const bool is_rgb = now.planar.samples.empty() && !task.planar_picture;
+    frame->capture.light_field.deep_colours = now.deep_colours;
+    task.light_field = &now;
+    if (Error error = Start(frame->where, task)) return error;
+    // The engine compares pictures in RGB of 8 bits that have the same lens.
+    const bool is_rgb = now.planar.samples.empty() && !task.planar_picture && !task.deep_views;
     const bool follows = is_rgb && picture_ != nullptr && task.params.focus == focus_ &&
                          task.params.aperture == aperture_;
     Result<EngineResult> result =
@@ -142,8 +149,8 @@ class Refocusing {
     focus_ = task.params.focus;
     aperture_ = task.params.aperture;
     before_ = std::move(now);
-    picture_ = std::make_shared<const EngineResult>(std::move(*result));
-    frame->result = picture_;
+    frame->result = std::make_shared<const EngineResult>(std::move(*result));
+    picture_ = is_rgb ? frame->result : nullptr;
     return true;
   }
 
@@ -161,20 +168,56 @@ class Refocusing {
     const bool is_planar = !planar.samples.empty();
     task.planar_picture = KindOfClip(options_.out) == ClipKind::kStream;
     if (is_planar || task.planar_picture) task.config.features |= STARFOCUS_FEATURE_IMAGES;
-    if (planar.is_deep) task.config.features |= STARFOCUS_FEATURE_DEEP;
     task.planar.matrix = is_planar ? planar.matrix : HeaderOf(video_).matrix();
     task.planar.range = is_planar ? planar.range : HeaderOf(video_).range;
-    task.planar.is_deep = planar.is_deep;
+    task.planar.is_deep = planar.is_deep || (task.planar_picture && video_.is_deep);
     return task;
+  }
+
+  // Chooses whether the engine reads and writes more than 8 bits.
+  Error ChooseFrameBits(ClipFrame* frame, EngineTask* task) const {
+    const LightField& light_field = frame->capture.light_field;
+    const bool to_folder = KindOfClip(options_.out) == ClipKind::kFolder;
+    if (task->planar.is_deep) {
+      task->config.features |= STARFOCUS_FEATURE_DEEP;
+      task->deep_views = HasDeepCodes(light_field);
+      task->deep_picture = to_folder;
+      const int bits = task->deep_views ? light_field.deep[0].bits : 10;
+      const int kept = to_folder ? 16 : task->planar_picture ? 10 : 8;
+      if (bits <= kept) return {};
+      TellNote(frame->where, "pictures of " + std::to_string(kept) + " bits lose the lower " +
+                                 std::to_string(bits - kept) + " bits of the colours");
+      return {};
+    }
+    if (!light_field.planar.samples.empty()) return {};
+    OutputOptions output;
+    output.out = to_folder ? PicturePath(options_.out, frame->picture) : options_.out;
+    Error error = ChooseBits(output, to_folder, &frame->capture, task);
+    // Engines that dither cannot copy unchanged blocks.
+    if (!task->deep_views) task->config.features &= ~uint32_t{STARFOCUS_FEATURE_DEEP};
+    return error;
+  }
+
+  // Creates the engine for the first frame, and again for frames with other bits.
+  Error Start(const std::string& where, const EngineTask& task) {
+    const bool is_same =
+        is_started_ && task.config.features == features_ && task.config.transfer == transfer_;
+    is_started_ = true;
+    features_ = task.config.features;
+    transfer_ = task.config.transfer;
+    return is_same ? Error() : run_.Start(where, task);
   }
 
   const VideoOptions& options_;
   const LensPlan& plan_;
   const Video& video_;
   EngineRun run_;
+  bool is_started_ = false;
+  decltype(Config::features) features_ = 0;
+  decltype(Config::transfer) transfer_ = 0;
   SeriesReport report_;
   LightField before_;
-  std::shared_ptr<const EngineResult> picture_;  // of `before_`
+  std::shared_ptr<const EngineResult> picture_;  // of `before_`, if the next frame may follow it
   double focus_ = 0, aperture_ = 0;              // of `picture_`
 };
 
@@ -279,7 +322,7 @@ Command VideoCommand() {
   AddOptions(
       {
           {"-o,--output", "DIR|FILE|-",
-           "Folder to write a PNG picture with the name of each input into, .webp file for an "
+           "Folder to write a picture with the name of each input into, .webp file for an "
            "animation, or - to write a Y4M stream to standard output",
            &options->out, Use::kRequired},
       },
