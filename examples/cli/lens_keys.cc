@@ -2,21 +2,24 @@
 #include "examples/cli/lens_keys.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <functional>
 #include <sstream>
 
+#include "examples/cli/input.h"
 #include "platform/file.h"
+#include "platform/problem.h"
 #include "platform/text.h"
 
 namespace starfocus {
 namespace {
 
-constexpr char kFocusForm[] = "FRAME:at=X,Y or FRAME:disparity=D";
+constexpr char kFocusForm[] = "FRAME:at=X,Y, FRAME:track=X,Y, FRAME:track or FRAME:disparity=D";
 constexpr char kApertureForm[] = "FRAME:f-stop=N, FRAME:aperture=U or FRAME:strength=S";
 constexpr size_t kMostDigits = 9;  // of a number of a frame
 
-// A key as typed: FRAME:NAME=VALUE.
+// A key as typed: FRAME:NAME=VALUE, or FRAME:NAME with an empty value.
 struct TypedKey {
   size_t frame = 0;
   std::string name, value, text;
@@ -24,12 +27,13 @@ struct TypedKey {
 
 // Returns nullopt if the text is not a key.
 std::optional<TypedKey> ParseKey(const std::string& text) {
-  const size_t colon = text.find(':'), equal = text.find('=');
-  if (colon == text.npos || equal == text.npos || equal < colon || colon > kMostDigits) return {};
+  const size_t colon = text.find(':'), equal = std::min(text.find('='), text.size());
+  if (colon == text.npos || equal < colon || colon > kMostDigits) return {};
   const std::string frame = text.substr(0, colon);
   if (frame.empty() || frame.find_first_not_of("0123456789") != frame.npos) return {};
   return TypedKey{static_cast<size_t>(std::strtoull(frame.c_str(), nullptr, 10)),
-                  text.substr(colon + 1, equal - colon - 1), text.substr(equal + 1), text};
+                  text.substr(colon + 1, equal - colon - 1),
+                  text.substr(std::min(equal + 1, text.size())), text};
 }
 
 // Reads the words of the value of an option: of the text itself if it begins like a key, or of the
@@ -97,10 +101,10 @@ void AddLensKeyOptions(Command* command, LensKeyOptions* options) {
   AddOptions(
       {
           {"--focus-keys", "KEYS",
-           "Focus of some frames, counted from 0, as text or in a file: FRAME:at=X,Y or "
-           "FRAME:disparity=D with spaces "
-           "between them; frames between two keys have disparities between theirs; default: one "
-           "focus for all frames",
+           "Focus of some frames, counted from 0, as text or in a file, with spaces between them: "
+           "FRAME:at=X,Y or FRAME:disparity=D, or FRAME:track=X,Y to follow the subject at this "
+           "pixel, which FRAME:track continues; frames between two keys have disparities between "
+           "theirs; default: one focus for all frames",
            &options->focus, Use::kOptional},
           {"--aperture-keys", "KEYS",
            "Aperture of some frames, likewise: FRAME:f-stop=N, FRAME:aperture=U or "
@@ -115,21 +119,34 @@ void AddLensKeyOptions(Command* command, LensKeyOptions* options) {
       command);
 }
 
+namespace {
+
+// Adds a key of the focus. Returns false if its name or value is wrong.
+bool AddFocusKey(const TypedKey& typed, std::vector<FocusKey>* keys) {
+  FocusKey key;
+  key.frame = typed.frame;
+  key.text = typed.text;
+  key.tracks = typed.name == "track";
+  if (key.tracks && typed.text.back() != '=' && typed.value.empty()) {
+    const auto begins = [](const FocusKey& before) { return before.tracks; };
+    if (std::none_of(keys->begin(), keys->end(), begins)) return false;
+  } else if (key.tracks || typed.name == "at") {
+    if (!Pair(',', &key.at).read(typed.value).empty()) return false;
+  } else {
+    const std::optional<double> disparity = ParseNumber(typed.value);
+    if (typed.name != "disparity" || !disparity) return false;
+    key.disparity = *disparity;
+  }
+  keys->push_back(std::move(key));
+  return true;
+}
+
+}  // namespace
+
 Result<std::vector<FocusKey>> ReadFocusKeys(const std::string& option_value) {
   std::vector<FocusKey> keys;
-  const Error error =
-      ReadKeys("--focus-keys", kFocusForm, option_value, [&](const TypedKey& typed) {
-        FocusKey key = {typed.frame, {}, 0, typed.text};
-        if (typed.name == "at") {
-          if (!Pair(',', &key.at).read(typed.value).empty()) return false;
-        } else {
-          const std::optional<double> disparity = ParseNumber(typed.value);
-          if (typed.name != "disparity" || !disparity) return false;
-          key.disparity = *disparity;
-        }
-        keys.push_back(std::move(key));
-        return true;
-      });
+  const Error error = ReadKeys("--focus-keys", kFocusForm, option_value,
+                               [&](const TypedKey& typed) { return AddFocusKey(typed, &keys); });
   if (error) return error;
   return keys;
 }
@@ -157,6 +174,53 @@ Result<std::vector<ApertureKey>> ReadApertureKeys(const std::string& option_valu
       });
   if (error) return error;
   return keys;
+}
+
+void SetDisparity(double disparity, size_t key, std::vector<FocusKey>* keys) {
+  (*keys)[key].disparity = disparity;
+  if (!(*keys)[key].tracks) return;
+  for (size_t k = key + 1; k < keys->size(); ++k) {
+    if (!(*keys)[k].tracks) continue;
+    if ((*keys)[k].at) return;
+    (*keys)[k].disparity = disparity;
+  }
+}
+
+namespace {
+
+// Returns the first frame whose focus does not depend on the subject of a key any more.
+size_t EndOfSubject(const std::vector<FocusKey>& keys, size_t key) {
+  size_t last = key;
+  for (size_t k = key + 1; k < keys.size() && !(keys[k].tracks && keys[k].at); ++k) {
+    if (keys[k].tracks) last = k;
+  }
+  return last + 1 < keys.size() ? keys[last + 1].frame : SIZE_MAX;
+}
+
+}  // namespace
+
+Error FollowSubjects(const std::string& where, size_t frame, starfocus_stabiliser* stabiliser,
+                     std::vector<FocusKey>* keys) {
+  for (size_t k = 0; k < keys->size(); ++k) {
+    FocusKey& key = (*keys)[k];
+    if (!key.tracks || !key.at || frame < key.frame || frame >= EndOfSubject(*keys, k)) continue;
+    const bool was_lost = key.subject.lost > 0;
+    const starfocus_status status =
+        frame == key.frame ? starfocus_track_begin(stabiliser, key.at->x, key.at->y, &key.subject)
+                           : starfocus_track_focus(stabiliser, &key.subject);
+    if (status != STARFOCUS_OK) {
+      const starfocus_problem* const problem = starfocus_stabiliser_problem(stabiliser);
+      return Error::Internal(where, "a subject that can be followed",
+                             Describe(status, problem).text);
+    }
+    SetDisparity(key.subject.focus, k, keys);
+    const std::string subject =
+        "frame " + std::to_string(frame) + ": the subject of " + key.text + " is ";
+    if (!was_lost && key.subject.lost > 0)
+      TellNote(where, subject + "lost; its last focus is kept");
+    if (was_lost && key.subject.lost == 0) TellNote(where, subject + "found again");
+  }
+  return {};
 }
 
 Error CheckLastKey(const char* option, size_t frame, const std::string& text, size_t frames) {

@@ -2,7 +2,8 @@
 // Focus and aperture of the frames of a video, which --focus-keys and --aperture-keys set at some
 // frames, the keys. Between two keys, the disparity in focus and the radius of the aperture are
 // interpolated, so that a focus pull passes through all depths. Frames before the first key and
-// after the last key have the values of these keys.
+// after the last key have the values of these keys. The disparity of a key that follows a subject
+// changes from frame to frame.
 #ifndef STARFOCUS_EXAMPLES_CLI_LENS_KEYS_H_
 #define STARFOCUS_EXAMPLES_CLI_LENS_KEYS_H_
 
@@ -15,6 +16,7 @@
 #include "examples/command_line/command.h"
 #include "examples/command_line/options.h"
 #include "platform/result.h"
+#include "starfocus/video.h"
 
 namespace starfocus {
 
@@ -30,9 +32,12 @@ void AddLensKeyOptions(Command* command, LensKeyOptions* options);
 
 struct FocusKey {
   size_t frame = 0;
-  std::optional<Pixel> at;  // pixel whose surface is in focus; no value: `disparity` was given
-  double disparity = 0;     // for `at`, found in the map of the frame
-  std::string text;         // the key as typed
+  std::optional<Pixel> at;  // pixel whose surface is in focus
+  // True: the focus follows the subject at the pixel `at` or, without it, that of an earlier key.
+  bool tracks = false;
+  double disparity = 0;          // for a pixel, found in the map of the frame
+  std::string text;              // the key as typed
+  starfocus_track subject = {};  // with `tracks` and `at`, from the frame on
 };
 
 struct ApertureKey {
@@ -49,6 +54,15 @@ Result<std::vector<ApertureKey>> ReadApertureKeys(const std::string& option_valu
 
 // Returns an error of the option if the last key is not a frame of a video of `frames` frames.
 Error CheckLastKey(const char* option, size_t frame, const std::string& text, size_t frames);
+
+// Sets the disparity of a key, and of later keys that follow its subject.
+void SetDisparity(double disparity, size_t key, std::vector<FocusKey>* keys);
+
+// Follows the subjects to a frame, which must be the next one and the last of the stabiliser. Sets
+// the disparities of their keys. Prints a note, which begins with `where`, when a subject is lost
+// or found again.
+Error FollowSubjects(const std::string& where, size_t frame, starfocus_stabiliser* stabiliser,
+                     std::vector<FocusKey>* keys);
 
 // Return the value of a frame. There must be a key.
 double FocusAt(const std::vector<FocusKey>& keys, Easing easing, size_t frame);

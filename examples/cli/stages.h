@@ -25,6 +25,7 @@ struct ClipFrame {
   // The light field, with the metadata of the picture. The stage that refocuses the frame takes the
   // light field out, except for its deep_colours.
   Capture capture;
+  double focus = 0;  // disparity in focus, if there are --focus-keys; set with the stabilised map
   std::shared_ptr<const EngineResult> result;  // null before the frame is refocused
 };
 

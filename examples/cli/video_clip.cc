@@ -92,13 +92,15 @@ Error PlanApertures(const VideoOptions& options, const Capture& first, LensPlan*
 
 // Finds the disparities of the keys that name a pixel of the frame.
 Error FindKeys(size_t frame, const std::string& where, const FloatMap& map, Video* video) {
-  for (FocusKey& key : video->focus_keys) {
-    if (key.frame != frame || !key.at) continue;
+  const bool is_only = video->count() == 0;  // the map of all frames
+  for (size_t k = 0; k < video->focus_keys.size(); ++k) {
+    const FocusKey& key = video->focus_keys[k];
+    if (!key.at || (key.frame != frame && !is_only)) continue;
     const Result<std::optional<double>> focus =
         FocusOfPixel("--focus-keys", *key.at, video->width, video->height, map);
     if (!focus) return focus.error();
     if (!*focus) return Expected(where, "known disparities around " + key.text, "none");
-    key.disparity = **focus;
+    SetDisparity(**focus, k, &video->focus_keys);
   }
   return {};
 }
@@ -299,7 +301,17 @@ Error ScanVideo(const VideoOptions& options, LensPlan* plan, Video* video) {
     plan->foci.clear();
     for (const FocusKey& key : video->focus_keys) plan->foci.push_back(key.disparity);
   }
+  const size_t keys = plan->foci.size();
+  if (video->tracks()) {
+    // A subject may have any disparity.
+    plan->foci.insert(plan->foci.end(), {video->stats.min, video->stats.max});
+    if (video->width < 16 || video->height < 16) {
+      return Error::Usage("--focus-keys", "frames of at least 16x16 pixels for track",
+                          SizeText(video->width, video->height));
+    }
+  }
   if (Error failed = ChooseBlur(video->stats, plan).MoveTo(&video->max_blur)) return failed;
+  plan->foci.resize(keys);
   TellAperture(video->first(), plan->aperture);
   TellBlurred(video->first(), video->stats, SharpRadius(video->width, video->height), *plan);
   return {};
@@ -333,9 +345,27 @@ Result<bool> StabiliseFrame(const VideoOptions& options, const LensPlan& plan, V
                             ClipFrame* frame) {
   const DisparityRange range = {static_cast<float>(video->stats.min),
                                 static_cast<float>(video->stats.max)};
-  Error error = StabiliseMap(options, frame->where, plan.options.threads, range, &frame->capture,
-                             &video->stabiliser);
+  const int threads = plan.options.threads;
+  LightField& light_field = frame->capture.light_field;
+  Error error;
+  if (video->tracks() && !WillStabilise(options, frame->capture)) {
+    // Subjects are followed in stabilised maps, but the picture gets its map as it came.
+    FloatMap map = light_field.disparity;
+    std::vector<uint8_t> coverage = light_field.coverage;
+    if (!video->stabiliser) video->stabiliser = std::make_unique<MapStabiliser>(threads, range);
+    error = video->stabiliser->Stabilise(frame->where, &light_field, nullptr);
+    light_field.disparity = std::move(map);
+    light_field.coverage = std::move(coverage);
+  } else {
+    error =
+        StabiliseMap(options, frame->where, threads, range, &frame->capture, &video->stabiliser);
+  }
+  std::vector<FocusKey>* const keys = &video->focus_keys;
+  if (!error && video->tracks()) {
+    error = FollowSubjects(video->first(), frame->index, video->stabiliser->get(), keys);
+  }
   if (error) return error;
+  if (!keys->empty()) frame->focus = FocusAt(*keys, options.keys.easing, frame->index);
   return true;
 }
 

@@ -6,6 +6,7 @@
 #ifndef STARFOCUS_EXAMPLES_CLI_VIDEO_CLIP_H_
 #define STARFOCUS_EXAMPLES_CLI_VIDEO_CLIP_H_
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -53,6 +54,11 @@ struct Video {
 
   // Returns the name of the first frame, for notes about all frames.
   const std::string& first() const { return is_stream ? stream.where() : sources[0].path; }
+  // Returns true if the focus follows a subject.
+  bool tracks() const {
+    return std::any_of(focus_keys.begin(), focus_keys.end(),
+                       [](const FocusKey& key) { return key.tracks; });
+  }
   // Returns the number of frames; 0: unknown.
   size_t count() const { return is_stream ? stream.maps() : sources.size(); }
 };
@@ -76,7 +82,7 @@ Error CheckKeyFrames(const Video& video);
 // Opens all frames, or all maps of a stream, and fits the lens to them.
 Error ScanVideo(const VideoOptions& options, LensPlan* plan, Video* video);
 
-// Stages: read a frame with its map; stabilise the map; repair the map.
+// Stages: read a frame with its map; stabilise the map, and find the focus; repair the map.
 Result<bool> ReadFrame(const VideoOptions& options, const LensPlan& plan, Video* video,
                        ClipFrame* frame);
 Result<bool> StabiliseFrame(const VideoOptions& options, const LensPlan& plan, Video* video,

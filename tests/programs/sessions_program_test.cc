@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "platform/image_io.h"
+#include "platform/pfm.h"
 #include "platform/writers/png.h"
 #include "tests/programs/session.h"
 #include "tests/support/error_line.h"
@@ -29,8 +30,8 @@ double DepthAt(int frame, int x, int y) {
   return y < 16 ? 0 : 0.1;
 }
 
-Image MakeFrame(int frame) {
-  Image image(kWidth, kHeight);
+Image MakeFrame(int frame, int width = kWidth, int height = kHeight) {
+  Image image(width, height);
   uint32_t state = static_cast<uint32_t>(frame) + 1;
   for (uint8_t& sample : image.pixels) {
     state = state * 1664525 + 1013904223;
@@ -62,12 +63,31 @@ void MakeLinear(const TempFolder& folder) {
   }
 }
 
+// A square that moves to the right by 3 pixels from frame to frame and comes nearer: frame n has it
+// at disparity 1 + n / 4. It is hidden in frame 5 of 8.
+void MakeWalk(const TempFolder& folder) {
+  const Image wall = MakeFrame(0, 80, 48), square = MakeFrame(1, 24, 24);
+  for (const char* name : {"in", "d"}) fs::create_directory(folder.file(name));
+  for (int frame = 0; frame < 8; ++frame) {
+    Image image = wall;
+    FloatMap map = {80, 48, std::vector<float>(80 * 48, 0.0f)};
+    for (int y = 0; y < 24 && frame != 5; ++y) {
+      const int left = 8 + 3 * frame;
+      std::copy_n(square.row(y), square.stride(), image.row(y + 12) + 3 * left);
+      std::fill_n(map.values.begin() + 80 * (y + 12) + left, 24, 1 + static_cast<float>(frame) / 4);
+    }
+    REQUIRE(WriteImage(folder.file("in/" + std::to_string(frame) + ".png"), image) == "");
+    REQUIRE(WritePfm(folder.file("d/" + std::to_string(frame) + ".pfm"), map) == "");
+  }
+}
+
 TEST_CASE("sessions: every session of sessions.txt succeeds") {
   RunSessions("programs/sessions.txt");
 }
 
 TEST_CASE("sessions: every session of video_sessions.txt succeeds") {
-  RunSessions("programs/video_sessions.txt", {{"clip", MakeClip}, {"linear", MakeLinear}});
+  RunSessions("programs/video_sessions.txt",
+              {{"clip", MakeClip}, {"linear", MakeLinear}, {"walk", MakeWalk}});
 }
 
 }  // namespace

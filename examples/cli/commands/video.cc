@@ -127,7 +127,7 @@ class Refocusing {
         run_(plan.options.threads, static_cast<int>(video.count())) {}
 
   Result<bool> Refocus(ClipFrame* frame) {
-    EngineTask task = TaskOf(frame->index, frame->capture.light_field);
+    EngineTask task = TaskOf(*frame);
     if (Error error = ChooseFrameBits(frame, &task)) return error;
     LightField now = std::move(frame->capture.light_field);
     frame->capture.light_field.deep_colours = now.deep_colours;
@@ -157,12 +157,12 @@ class Refocusing {
   const SeriesReport& report() const { return report_; }
 
  private:
-  EngineTask TaskOf(size_t index, const LightField& light_field) const {
+  EngineTask TaskOf(const ClipFrame& frame) const {
+    const LightField& light_field = frame.capture.light_field;
     EngineTask task = MakeTask(plan_, light_field, video_.stats, video_.max_blur, true);
-    const Easing easing = options_.keys.easing;
-    if (!video_.focus_keys.empty()) task.params.focus = FocusAt(video_.focus_keys, easing, index);
+    if (!video_.focus_keys.empty()) task.params.focus = frame.focus;
     if (!video_.aperture_keys.empty()) {
-      task.params.aperture = RadiusAt(video_.aperture_keys, easing, index);
+      task.params.aperture = RadiusAt(video_.aperture_keys, options_.keys.easing, frame.index);
     }
     const PlanarImage& planar = light_field.planar;
     const bool is_planar = !planar.samples.empty();
@@ -273,7 +273,8 @@ Error Run(const VideoOptions& options) {
   if (video.is_stream) video.stream.TellEnd();
   TellLine(OutputName(options.out) + ": " + std::to_string(written->frames) +
            (written->frames == 1 ? " picture, " : " pictures, ") + LensText(*plan) +
-           (video.aperture_keys.size() > 1 ? " at the widest" : ""));
+           (video.aperture_keys.size() > 1 ? " at the widest" : "") +
+           (video.tracks() ? ", following a subject" : ""));
   return {};
 }
 
@@ -311,7 +312,7 @@ Command VideoCommand() {
        {"Focus and lens",
         {{"--focus-at", "Pixel in focus in the first frame"},
          {"--focus", "Disparity in focus"},
-         {"--focus-keys", "Focus by frame: '0:at=422,414 48:disparity=-3.2'"},
+         {"--focus-keys", "Focus by frame: '0:track=422,414 48:disparity=-3.2'"},
          {"--aperture-keys", "Aperture by frame: '0:f-stop=8 48:f-stop=1.8'"},
          {"--f-stop", "F-stop, such as 2.8; a smaller one blurs more"},
          {"--strength", "Percentage of the blur, 0 to 100"}}}}};
