@@ -36,6 +36,21 @@ Result<std::vector<std::string>> FindPictures(const std::vector<std::string>& fr
   return std::vector<std::string>(frames.size(), path);
 }
 
+// Prints a note if numbers are missing between those of the files of a pattern.
+void TellGap(const std::string& pattern, const std::map<uint64_t, std::string>& files) {
+  const uint64_t first = files.begin()->first;
+  const uint64_t missing = files.rbegin()->first - first + 1 - files.size();
+  if (missing == 0) return;
+  uint64_t next = first;
+  for (const auto& file : files) {
+    if (file.first != next) break;
+    ++next;
+  }
+  TellNote(pattern, std::to_string(missing) + (missing == 1 ? " number has" : " numbers have") +
+                        " no file, the first is " + std::to_string(next) +
+                        ", so the video jumps there");
+}
+
 }  // namespace
 
 Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inputs,
@@ -50,6 +65,7 @@ Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inpu
     if (!files) return files.error();
     paths.clear();
     for (const auto& [number, path] : *files) paths.push_back(path);
+    TellGap(inputs[0], *files);
   } else if (inputs.size() == 1) {
     Result<FoundInputs> found = FindInputs(inputs[0], true, out);
     if (!found) return found.error();
