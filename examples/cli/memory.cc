@@ -28,14 +28,26 @@ namespace {
 // Allocations of at least this size prefer large pages, which have 2 MiB on most processors.
 constexpr size_t kLarge = size_t{1} << 20;
 
-// Asks the system for large pages for the whole pages of a block of memory. Systems that always or
-// never use large pages ignore the request.
-void PreferLargePages(void* memory, size_t size) {
-#ifdef MADV_HUGEPAGE
+// Gives the system advice for the whole pages of a block of memory.
+void Advise(void* memory, size_t size, int advice) {
   static const auto page = static_cast<uintptr_t>(sysconf(_SC_PAGESIZE));
   const auto begin = (reinterpret_cast<uintptr_t>(memory) + page - 1) / page * page;
   const auto end = (reinterpret_cast<uintptr_t>(memory) + size) / page * page;
-  madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, advice);
+}
+
+// Asks the system for large pages. Systems that always or never use large pages ignore the request.
+void PreferLargePages(void* memory, size_t size) {
+#ifdef MADV_HUGEPAGE
+  Advise(memory, size, MADV_HUGEPAGE);
+#endif
+}
+
+// Keeps a block of memory out of processes that decode files (platform/helper), or ends this. While
+// such a process runs, the system copies each page of shared memory that the program writes.
+void KeepFromHelpers(void* memory, size_t size, bool keep) {
+#ifdef MADV_DONTFORK
+  if (size >= kLarge) Advise(memory, size, keep ? MADV_DONTFORK : MADV_DOFORK);
 #endif
 }
 
@@ -70,16 +82,26 @@ void* operator new(size_t size) {
   return Take(size, [](size_t bytes) { return std::malloc(bytes); });
 }
 
+// Only the workspaces of the library are aligned.
 void* operator new(size_t size, std::align_val_t alignment) {
-  return Take(size, [alignment](size_t bytes) {
+  void* const block = Take(size, [alignment](size_t bytes) {
     void* memory = nullptr;
     return posix_memalign(&memory, static_cast<size_t>(alignment), bytes) == 0 ? memory : nullptr;
   });
+  KeepFromHelpers(block, size, true);
+  return block;
 }
 
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
+
+void operator delete(void* memory, std::align_val_t) noexcept {
+  if (memory != nullptr) KeepFromHelpers(memory, malloc_usable_size(memory), false);
+  std::free(memory);
+}
+
+void operator delete(void* memory, size_t, std::align_val_t alignment) noexcept {
+  operator delete(memory, alignment);
+}
 
 #endif
