@@ -207,7 +207,8 @@ TEST_CASE("steps: the picture `gathered` marks only cells away from depth edges"
   const Image plain = Picture(steps.folder, "plain.png");
   int marked = 0;
   ForSquare([&](int x, int y) {
-    if (Distance(At(gathered, x, y), At(plain, x, y)) == 0) return;
+    // The plain picture is dithered.
+    if (Distance(At(gathered, x, y), At(plain, x, y)) <= 3) return;
     ++marked;
     CHECK(At(gathered, x, y)[2] > At(gathered, x, y)[1]);
     const bool beside = y >= kTop && y < kBottom;
