@@ -60,7 +60,7 @@ void FindPasses(const EngineState& engine, const Rect& rect, Block* blocks, int3
 // Finds the cells of a deep picture that show light beyond white where the blur radius varies,
 // marks a depth edge there, and renders them at layer 0.
 void MarkLamps(const EngineState& engine, int32_t row, const Range& columns) {
-  const Plane<uint16_t>& light = engine.rings.deep[0];
+  const Plane<const uint16_t>& light = engine.input.deep_rows[0];
   for (int32_t column = columns.first; column < columns.last; ++column) {
     const Rect cell = {column * kCellSize, row * kCellSize, kCellSize, kCellSize};
     const Rect around =

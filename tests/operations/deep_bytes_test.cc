@@ -247,6 +247,28 @@ TEST_CASE("deep: a lamp a little nearer than a wall is blurred by its own radius
   }
 }
 
+TEST_CASE("deep: a lamp does not change a preview far away from it") {
+  constexpr int kSide = 128, kShown = 20;  // rows of the preview that the lamp does not reach
+  test::Scene scene = test::LayeredScene(kSide, kSide, 1, 1, 29);
+  test::SetDisparity(&scene, [](int x, int) { return x / 20 % 2 == 0 ? 0.0F : 1.0F; });
+  const auto preview = [&](bool has_lamp) {
+    DeepField field(scene, STARFOCUS_FORMAT_RGB_HALF, Bright(1));
+    if (has_lamp) std::fill_n(field.views[0].At(100, 120), 3, test::DepthMemory::HalfOf(60));
+    test::Config config = DeepConfig(scene);
+    config.previews = 1;
+    test::Engine engine(config);
+    test::PreparedMemory memory(engine);
+    const starfocus_prepared* const prepared = memory.Prepare(engine.get(), field.Field());
+    Words out(kSide / 2, kSide / 2, STARFOCUS_FORMAT_RGB_HALF);
+    const starfocus_image image = out.Image();
+    const starfocus::Params params = test::Params(8, 1, STARFOCUS_MODE_BLOCK);
+    REQUIRE(test::Preview(engine.get(), &params, prepared, 1, &image, nullptr) == STARFOCUS_OK);
+    out.words.resize(kShown * out.stride);
+    return out.words;
+  };
+  CHECK(preview(true) == preview(false));
+}
+
 // A picture of P010 or P210.
 struct Yuv {
   Yuv(int w, int h, int f, int matrix = 0, int range = 0)
