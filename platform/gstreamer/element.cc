@@ -253,7 +253,7 @@ gboolean SinkEvent(GstAggregator* aggregator, GstAggregatorPad* pad, GstEvent* e
     gst_event_parse_caps(event, &caps);
     const bool is_set = SetCaps(self, pad, caps);
     gst_event_unref(event);
-    return is_set;
+    return is_set ? TRUE : FALSE;
   }
   // A segment also follows each flush.
   if (GST_EVENT_TYPE(event) == GST_EVENT_SEGMENT && pad == self->depth) {
@@ -314,6 +314,23 @@ GstFlowReturn UpdateSourceCaps(GstAggregator* aggregator, GstCaps* caps, GstCaps
   return GST_FLOW_OK;
 }
 
+// Configures a pool, which may ask for more or larger buffers. Returns false if it refuses.
+bool SetUpPool(GstBufferPool* pool, GstQuery* query, GstCaps* caps, guint bytes, guint least,
+               guint most) {
+  GstStructure* config = gst_buffer_pool_get_config(pool);
+  gst_buffer_pool_config_set_params(config, caps, bytes, least, most);
+  if (gst_query_find_allocation_meta(query, GST_VIDEO_META_API_TYPE, nullptr)) {
+    gst_buffer_pool_config_add_option(config, GST_BUFFER_POOL_OPTION_VIDEO_META);
+  }
+  if (gst_buffer_pool_set_config(pool, config)) return true;
+  config = gst_buffer_pool_get_config(pool);
+  if (gst_buffer_pool_config_validate_params(config, caps, bytes, least, most)) {
+    return gst_buffer_pool_set_config(pool, config);
+  }
+  gst_structure_free(config);
+  return false;
+}
+
 // Pictures come from a pool of downstream, which saves a copy, or else from a pool of the element.
 gboolean DecideAllocation(GstAggregator*, GstQuery* query) {
   GstCaps* caps = nullptr;
@@ -329,12 +346,12 @@ gboolean DecideAllocation(GstAggregator*, GstQuery* query) {
   }
   if (pool == nullptr) pool = gst_video_buffer_pool_new();
   bytes = std::max(bytes, static_cast<guint>(info.size));  // downstream may give 0
-  GstStructure* const config = gst_buffer_pool_get_config(pool);
-  gst_buffer_pool_config_set_params(config, caps, bytes, least, most);
-  if (gst_query_find_allocation_meta(query, GST_VIDEO_META_API_TYPE, nullptr)) {
-    gst_buffer_pool_config_add_option(config, GST_BUFFER_POOL_OPTION_VIDEO_META);
+  bool is_set = SetUpPool(pool, query, caps, bytes, least, most);
+  if (!is_set) {
+    gst_object_unref(pool);
+    pool = gst_video_buffer_pool_new();
+    is_set = SetUpPool(pool, query, caps, bytes, least, most);
   }
-  const gboolean is_set = gst_buffer_pool_set_config(pool, config);
   gst_query_set_nth_allocation_pool(query, 0, pool, bytes, least, most);
   gst_object_unref(pool);
   return is_set;
