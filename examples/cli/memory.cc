@@ -19,7 +19,7 @@
 #include <cstdlib>
 #include <new>
 
-#ifdef __GLIBC__
+#if defined(__GLIBC__) || defined(MADV_DONTFORK)
 #include <malloc.h>
 #endif
 
@@ -96,7 +96,9 @@ void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, size_t) noexcept { std::free(memory); }
 
 void operator delete(void* memory, std::align_val_t) noexcept {
+#ifdef MADV_DONTFORK
   if (memory != nullptr) KeepFromHelpers(memory, malloc_usable_size(memory), false);
+#endif
   std::free(memory);
 }
 
