@@ -60,17 +60,6 @@ void ReplaceLight(Capture* capture) {
   capture->gain_map = {};
 }
 
-// Prints notes about what a picture of 8 bits loses.
-void TellLostBits(const Capture& capture) {
-  TellLost(capture);
-  const std::vector<DeepImage>& deep = capture.light_field.deep;
-  if (capture.photo || !std::any_of(deep.begin(), deep.end(), MayExceedWhite)) return;
-  if (std::any_of(deep.begin(), deep.end(),
-                  [](const DeepImage& view) { return LargestLight(view) > 1; })) {
-    TellNote(capture.path, "light brighter than white is clipped in pictures of 8 bits");
-  }
-}
-
 // Prints a note if a WebP picture has fewer bits than the input.
 void TellBits(const Capture& capture) {
   std::vector<std::string> notes;
@@ -101,6 +90,16 @@ Error CheckLight(const std::string& path, const DeepImage& picture) {
 }
 
 }  // namespace
+
+void TellLostBits(const Capture& capture) {
+  TellLost(capture);
+  const std::vector<DeepImage>& deep = capture.light_field.deep;
+  if (capture.photo || !std::any_of(deep.begin(), deep.end(), MayExceedWhite)) return;
+  if (std::any_of(deep.begin(), deep.end(),
+                  [](const DeepImage& view) { return LargestLight(view) > 1; })) {
+    TellNote(capture.path, "light brighter than white is clipped in pictures of 8 bits");
+  }
+}
 
 bool KeepsBits(const std::string& path) { return IsDeepExtension(FormatExtension(path)); }
 

@@ -16,6 +16,9 @@
 
 namespace starfocus {
 
+// Prints notes about what a picture of 8 bits loses.
+void TellLostBits(const Capture& capture);
+
 // Returns true if pictures with the name `path` have all bits of the input.
 bool KeepsBits(const std::string& path);
 

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "examples/cli/input.h"
+#include "examples/cli/refocus_plan.h"
 #include "platform/file.h"
 #include "platform/problem.h"
 #include "platform/text.h"
@@ -200,7 +201,7 @@ size_t EndOfSubject(const std::vector<FocusKey>& keys, size_t key) {
 }  // namespace
 
 Error FollowSubjects(const std::string& where, size_t frame, starfocus_stabiliser* stabiliser,
-                     std::vector<FocusKey>* keys) {
+                     DisparityRange range, const LightField* own, std::vector<FocusKey>* keys) {
   for (size_t k = 0; k < keys->size(); ++k) {
     FocusKey& key = (*keys)[k];
     if (!key.tracks || !key.at || frame < key.frame || frame >= EndOfSubject(*keys, k)) continue;
@@ -213,7 +214,18 @@ Error FollowSubjects(const std::string& where, size_t frame, starfocus_stabilise
       return Error::Internal(where, "a subject that can be followed",
                              Describe(status, problem).text);
     }
-    SetDisparity(key.subject.focus, k, keys);
+    std::optional<double> focus = key.subject.focus;
+    if (own != nullptr) {
+      const Pixel at = {key.subject.x, key.subject.y};
+      if (key.subject.lost == 0) {
+        const Error error =
+            FocusOfPixel("--focus-keys", at, own->width(), own->height(), own->disparity)
+                .MoveTo(&focus);
+        if (error) return error;
+      }
+      if (key.subject.lost > 0 || !focus) focus = key.disparity;
+    }
+    SetDisparity(std::clamp(*focus, double(range.min), double(range.max)), k, keys);
     const std::string subject =
         "frame " + std::to_string(frame) + ": the subject of " + key.text + " is ";
     if (!was_lost && key.subject.lost > 0)

@@ -12,9 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "examples/cli/estimate_run.h"
 #include "examples/cli/lens_options.h"
 #include "examples/command_line/command.h"
 #include "examples/command_line/options.h"
+#include "platform/light_field.h"
 #include "platform/result.h"
 #include "starfocus/video.h"
 
@@ -59,10 +61,11 @@ Error CheckLastKey(const char* option, size_t frame, const std::string& text, si
 void SetDisparity(double disparity, size_t key, std::vector<FocusKey>* keys);
 
 // Follows the subjects to a frame, which must be the next one and the last of the stabiliser. Sets
-// the disparities of their keys. Prints a note, which begins with `where`, when a subject is lost
-// or found again.
+// the disparities of their keys, within `range`, from the stabilised map or, if it is not null,
+// from the map of `own`, which the picture gets. Prints a note, which begins with `where`, when a
+// subject is lost or found again.
 Error FollowSubjects(const std::string& where, size_t frame, starfocus_stabiliser* stabiliser,
-                     std::vector<FocusKey>* keys);
+                     DisparityRange range, const LightField* own, std::vector<FocusKey>* keys);
 
 // Return the value of a frame. There must be a key.
 double FocusAt(const std::vector<FocusKey>& keys, Easing easing, size_t frame);

@@ -2,6 +2,7 @@
 #include "examples/cli/video_clip.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -243,10 +244,14 @@ class Scan {
   // Adds the disparities of a map as it comes, and what a repair may add, to those of the video.
   Error AddRange(bool is_first, const Capture& capture) {
     const bool repairs = WillRepair(options_.map, capture);
-    const bool fills = repairs || options_.map.fill || capture.care != MapCare::kNone;
+    const bool fills = repairs || options_.map.fill || capture.care != MapCare::kNone ||
+                       WillStabilise(options_, capture);
     Result<starfocus_disparity_stats> stats =
         PrepareDisparity(MapName(capture), capture.light_field.disparity, fills);
     if (!stats) return stats.error();
+    DisparityRange& given = video_.given;
+    given = {std::min(is_first ? INFINITY : given.min, float(stats->min)),
+             std::max(is_first ? -INFINITY : given.max, float(stats->max))};
     if (repairs) {
       stats->min = std::max(stats->min - kRepairReach, -STARFOCUS_MAX_DISPARITY);
       stats->max = std::min(stats->max + kRepairReach, STARFOCUS_MAX_DISPARITY);
@@ -343,12 +348,12 @@ Result<bool> ReadFrame(const VideoOptions& options, const LensPlan& plan, Video*
 
 Result<bool> StabiliseFrame(const VideoOptions& options, const LensPlan& plan, Video* video,
                             ClipFrame* frame) {
-  const DisparityRange range = {static_cast<float>(video->stats.min),
-                                static_cast<float>(video->stats.max)};
+  const DisparityRange range = video->given;
   const int threads = plan.options.threads;
   LightField& light_field = frame->capture.light_field;
+  const bool keeps_map = video->tracks() && !WillStabilise(options, frame->capture);
   Error error;
-  if (video->tracks() && !WillStabilise(options, frame->capture)) {
+  if (keeps_map) {
     // Subjects are followed in stabilised maps, but the picture gets its map as it came.
     FloatMap map = light_field.disparity;
     std::vector<uint8_t> coverage = light_field.coverage;
@@ -362,7 +367,8 @@ Result<bool> StabiliseFrame(const VideoOptions& options, const LensPlan& plan, V
   }
   std::vector<FocusKey>* const keys = &video->focus_keys;
   if (!error && video->tracks()) {
-    error = FollowSubjects(video->first(), frame->index, video->stabiliser->get(), keys);
+    error = FollowSubjects(video->first(), frame->index, video->stabiliser->get(), range,
+                           keeps_map ? &light_field : nullptr, keys);
   }
   if (error) return error;
   if (!keys->empty()) frame->focus = FocusAt(*keys, options.keys.easing, frame->index);

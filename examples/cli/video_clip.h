@@ -47,7 +47,8 @@ struct Video {
   Positions views;
   bool is_linear = false;  // true if the codes of the frames are proportional to light
   bool is_deep = false;    // true if the first frame has codes of more than 8 bits
-  starfocus_disparity_stats stats = {};  // over all frames, and what a repair may add
+  DisparityRange given;    // over all frames, of the maps as they come
+  starfocus_disparity_stats stats = {};  // of `given`, and what a repair may add
   double max_blur = 0;
   std::vector<FocusKey> focus_keys;
   std::vector<ApertureKey> aperture_keys;

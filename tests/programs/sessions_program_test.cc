@@ -64,10 +64,11 @@ void MakeLinear(const TempFolder& folder) {
 }
 
 // A square that moves to the right by 3 pixels from frame to frame and comes nearer: frame n has it
-// at disparity 1 + n / 4. It is hidden in frame 5 of 8.
+// at disparity 1 + n / 4. It is hidden in frame 5 of 8. The maps in `s` of odd frames are larger by
+// a fifth.
 void MakeWalk(const TempFolder& folder) {
   const Image wall = MakeFrame(0, 80, 48), square = MakeFrame(1, 24, 24);
-  for (const char* name : {"in", "d"}) fs::create_directory(folder.file(name));
+  for (const char* name : {"in", "d", "s"}) fs::create_directory(folder.file(name));
   for (int frame = 0; frame < 8; ++frame) {
     Image image = wall;
     FloatMap map = {80, 48, std::vector<float>(80 * 48, 0.0f)};
@@ -78,6 +79,8 @@ void MakeWalk(const TempFolder& folder) {
     }
     REQUIRE(WriteImage(folder.file("in/" + std::to_string(frame) + ".png"), image) == "");
     REQUIRE(WritePfm(folder.file("d/" + std::to_string(frame) + ".pfm"), map) == "");
+    for (float& disparity : map.values) disparity *= frame % 2 == 0 ? 1.0F : 1.2F;
+    REQUIRE(WritePfm(folder.file("s/" + std::to_string(frame) + ".pfm"), map) == "");
   }
 }
 

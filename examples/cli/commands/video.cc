@@ -182,6 +182,7 @@ class Refocusing {
       task->config.features |= STARFOCUS_FEATURE_DEEP;
       task->deep_views = HasDeepCodes(light_field);
       task->deep_picture = to_folder;
+      if (!task->deep_views && !light_field.deep.empty()) TellLostBits(frame->capture);
       const int bits = task->deep_views ? light_field.deep[0].bits : 10;
       const int kept = to_folder ? 16 : task->planar_picture ? 10 : 8;
       if (bits <= kept) return {};
