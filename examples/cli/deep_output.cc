@@ -127,8 +127,8 @@ Error ChooseBits(const OutputOptions& output, bool single, Capture* capture, Eng
   // Pictures without alpha show the colours of transparent pixels, and those of a sweep no light
   // beyond white.
   if (!keeps && (has_alpha || (is_hdr && !single))) light_field.deep.clear();
-  // Pictures of 8 bits are dithered, so that smooth areas have no bands.
-  if (!brightens || !light_field.deep.empty()) task->config.features |= STARFOCUS_FEATURE_DEEP;
+  // Engines that may have more than 8 bits dither pictures of 8 bits.
+  if (output.dither || !light_field.deep.empty()) task->config.features |= STARFOCUS_FEATURE_DEEP;
   if (light_field.deep.empty()) return {};
   if (Error error = keeps ? CheckLight(path, light_field.deep[0]) : Error()) return error;
   task->deep_views = true;

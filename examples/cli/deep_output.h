@@ -26,7 +26,8 @@ bool KeepsBits(const std::string& path);
 Error CheckHighlights(const std::string& path, double highlights);
 
 // Chooses whether the engine reads and writes more than 8 bits for the picture output.out, which
-// may be empty. Pictures of 8 bits are dithered unless the task has highlights. `single` is false
+// may be empty. Pictures of 8 bits are dithered if an option asks
+// for it, or if the views are deep. `single` is false
 // for a sweep, whose pictures have 8 bits. Changes the task and the deep views of the capture, and
 // prints notes about light that is lost. Returns an error if the format of the picture cannot
 // describe the light.

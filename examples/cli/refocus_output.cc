@@ -128,6 +128,9 @@ void AddOutputOptions(Command* command, OutputOptions* options) {
            &options->out},
           {"--quality", "N", "Quality of JPEG and WebP pictures, 1 to 100",
            Whole(1, 100, &options->quality), Use::kDefault},
+          {"--dither", nullptr,
+           "Dither smooth areas of pictures of 8 bits, so that blurred skies have no bands",
+           &options->dither},
           {"--small-png", nullptr,
            "Write PNG files that are about 7 % smaller and take about 17 times as long to "
            "compress",

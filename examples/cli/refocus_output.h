@@ -40,7 +40,7 @@ Image DrawPartition(const Image& picture, int left, int top,
 struct OutputOptions {
   std::string out, all_in_focus, focus_index, compare;
   int quality = 95;
-  bool depth_photo = false, small_png = false, show = false;
+  bool dither = false, depth_photo = false, small_png = false, show = false;
 };
 
 void AddOutputOptions(Command* command, OutputOptions* options);

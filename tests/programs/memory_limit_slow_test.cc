@@ -72,7 +72,7 @@ TEST_CASE("memory limits: under any limit, a program reports one error or writes
   Succeed(folder, "refocus lf --focus 2 -o right.png");
   const int start = FindStart(folder, "--version"), lab = FindStart(folder, "sheet --help");
   const std::string refocus = "refocus lf --focus 2 -o a.png --threads ";
-  CheckLimits(folder, start, refocus + "1", 14000, "a.png", "a.png");
+  CheckLimits(folder, start, refocus + "1", 6000, "a.png", "a.png");
   CheckLimits(folder, start, refocus + "8", 90000, "a.png", "a.png");
   CheckLimits(folder, lab, "sheet right.png right.png -o a.png", 4000, "a.png", "a.png");
   CheckLimits(folder, lab, "scene new --size 240x180 --views 5 --threads 8", 90000, "new",

@@ -128,6 +128,9 @@ Result<LensPlan> MakePlan(const RefocusOptions& options) {
   if (Error error = PlanOutput(options.output, sweep, region)) return error;
   if (Error error = CheckOutputs(options)) return error;
   if (Error error = CheckHighlights(options.output.out, options.lens.highlights)) return error;
+  if (options.output.dither && options.lens.highlights > 1) {
+    return Error::Usage("--dither", "either --dither or --highlights", "both");
+  }
   if (region && options.stream) {
     return Error::Usage("--region", "either --region or --stream", "both");
   }

@@ -193,10 +193,7 @@ class Refocusing {
     if (!light_field.planar.samples.empty()) return {};
     OutputOptions output;
     output.out = to_folder ? PicturePath(options_.out, frame->picture) : options_.out;
-    Error error = ChooseBits(output, to_folder, &frame->capture, task);
-    // Engines that dither cannot copy unchanged blocks.
-    if (!task->deep_views) task->config.features &= ~uint32_t{STARFOCUS_FEATURE_DEEP};
-    return error;
+    return ChooseBits(output, to_folder, &frame->capture, task);
   }
 
   // Creates the engine for the first frame, and again for frames with other bits.
