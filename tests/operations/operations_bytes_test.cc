@@ -16,10 +16,13 @@ using namespace properties;
 
 TEST_CASE("ways: random calls with random conditions return the bytes of the whole picture") {
   // Sanitizers take ten times as long. The fuzz target `differential` draws more of these cases.
-  ForRandomCases(test::kSanitized ? 300 : 1000, [](test::Random* random) {
-    const Case of = RandomCase(random);
-    for (int k = 0; k < 3; ++k) CheckAnyCall(of, random);
-  });
+  ForRandomCases(test::kSanitized     ? 300
+                 : STARFOCUS_EMULATED ? 600
+                                      : 1000,
+                 [](test::Random* random) {
+                   const Case of = RandomCase(random);
+                   for (int k = 0; k < 3; ++k) CheckAnyCall(of, random);
+                 });
 }
 
 TEST_CASE("ways: frames and regions of many blocks have the bytes of the whole picture") {
