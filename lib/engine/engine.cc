@@ -202,7 +202,7 @@ Output OutputOf(const EngineState& engine, const starfocus_image& image, const R
 
 Input InputOf(const EngineState& engine, Pass pass, const Scratch& scratch) {
   Input in = kDeep && pass == kAlphaPass ? DeepAlphaOf(engine.input)
-             : engine.input.is_deep()
+             : kDeep && engine.input.is_deep()
                  ? DeepExcessOf(engine.input, engine.stripe.excess_shift)
                  : ExcessOf(engine.input, engine.config.highlights, scratch.lamp_lengths);
   in.captured = &engine.input;

@@ -282,7 +282,7 @@ starfocus_status PlanStripe(const Range& rows, EngineState* engine) {
       for (int32_t row = first_row; row < cells.last_row; ++row) {
         MeasureCells(*engine->kernels, engine->input, lens.scale, row, {first, last},
                      cells.At(first, row));
-        if (has_lamps) MarkLamps(*engine, row, {first, last});
+        if (kDeep && has_lamps) MarkLamps(*engine, row, {first, last});
       }
     };
     const starfocus_status status = ForEach(plan.columns, engine->jobs, measure);
