@@ -192,8 +192,8 @@ TEST_CASE("deep: every level of a constant picture stays within 2^-14 of white")
   }
 }
 
-// Most light is beyond white in both pictures, because lamps are not gathered where blur varies.
-TEST_CASE("deep: light beyond white is refocused like half of it") {
+// In block mode, lamps are not gathered where blur varies, so that both pictures differ more.
+TEST_CASE("deep: light beyond white is refocused like light below it") {
   for (const int views : {1, 5}) {
     for (const starfocus_mode mode : test::kModes) {
       if (test::kSlow && views > 1 && mode != STARFOCUS_MODE_BLOCK) continue;
@@ -203,15 +203,14 @@ TEST_CASE("deep: light beyond white is refocused like half of it") {
       test::Engine engine(config);
       const starfocus::Params params = test::Params(3, 1, mode);
       constexpr int kHalf = STARFOCUS_FORMAT_RGB_HALF;
-      DeepField dark(scene, kHalf, Bright(16)), bright(scene, kHalf, Bright(32));
+      DeepField dark(scene, kHalf, Bright(1)), bright(scene, kHalf, Bright(32));
       Words low = Refocused(&engine, params, &dark, kHalf);
       Words high = Refocused(&engine, params, &bright, kHalf);
       double sum = 0, worst = 0;
       for (int y = 0; y < scene.height; ++y) {
         for (int x = 0; x < scene.width; ++x) {
           for (int c = 0; c < 3; ++c) {
-            const double error =
-                HalfToLight(high.At(x, y)[c]) / 32 - HalfToLight(low.At(x, y)[c]) / 16;
+            const double error = HalfToLight(high.At(x, y)[c]) / 32 - HalfToLight(low.At(x, y)[c]);
             worst = std::max(worst, std::fabs(error));
             sum += error * error;
           }
@@ -219,7 +218,8 @@ TEST_CASE("deep: light beyond white is refocused like half of it") {
       }
       CAPTURES(views, mode);
       CHECK(worst < 0.1);
-      CHECK(std::sqrt(sum / (3 * scene.width * scene.height)) < 0.003);
+      const double most = mode == STARFOCUS_MODE_BLOCK ? 0.004 : 0.003;
+      CHECK(std::sqrt(sum / (3 * scene.width * scene.height)) < most);
     }
   }
 }
