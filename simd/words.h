@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SIMD kernels that convert 16-bit codes of R, G, B to codes of 8 bits, and from and to luma with
 // chroma of 16 bits, whose samples of U and V alternate. Codes and samples are words; the white of
-// codes is 65535. The
-// matrix is that of 8 bits (pixels.h). With limited range, black is 16 * 256 and white 235 * 256;
-// with full range, white is 1023 * 64, the largest word of 10 bits.
+// codes is 65535. The matrix is that of 8 bits (pixels.h). With limited range, black is 16 * 256
+// and white 235 * 256; with full range, white is 1023 * 64, the largest word of 10 bits.
 #ifndef STARFOCUS_SIMD_WORDS_H_
 #define STARFOCUS_SIMD_WORDS_H_
 

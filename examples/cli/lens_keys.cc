@@ -189,7 +189,7 @@ void SetDisparity(double disparity, size_t key, std::vector<FocusKey>* keys) {
 
 namespace {
 
-// Returns the first frame whose focus does not depend on the subject of a key any more.
+// Returns the first frame after those whose focus depends on the subject of a key.
 size_t EndOfSubject(const std::vector<FocusKey>& keys, size_t key) {
   size_t last = key;
   for (size_t k = key + 1; k < keys.size() && !(keys[k].tracks && keys[k].at); ++k) {

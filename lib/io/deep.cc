@@ -174,9 +174,8 @@ void Unmultiply(const uint16_t* rgb, int32_t alpha, uint16_t* straight) {
   }
 }
 
-// Sets more[k] to what is added to codes of column k of 8 in row y before their lower 8 bits are
-// dropped (DitherWords): the thresholds of Bayer's matrix, so that the mean of a smooth area is
-// right.
+// Fills `more` of DitherWords for row y with the thresholds of Bayer's matrix. With these, the mean
+// of a smooth area is right.
 void FillThresholds(uint32_t y, uint16_t* more) {
   for (uint32_t x = 0; x < 8; ++x) {
     // The rank in the matrix has the bits of x ^ y and of y, interleaved, lowest bits first.

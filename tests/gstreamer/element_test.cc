@@ -404,7 +404,7 @@ TEST_CASE("element: the size and the format of the video and the depth may chang
   CHECK(pipeline.Pull(5 * kFrame) == pipeline.Refocused(220));
 }
 
-// Offers `pool` to the element, as a sink does whose memory is not that of the element.
+// Offers `pool` to the element. Sinks with memory of their own do so.
 GstPadProbeReturn OfferPool(GstPad*, GstPadProbeInfo* info, gpointer pool) {
   GstQuery* const query = GST_PAD_PROBE_INFO_QUERY(info);
   if (GST_QUERY_TYPE(query) != GST_QUERY_ALLOCATION) return GST_PAD_PROBE_OK;
