@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -79,12 +80,13 @@ struct Seen {
 };
 
 // Returns the pixel position at which frame `to` shows what frame `from` shows at pixel (x, y).
-Point Predict(const Scene& from, const Scene& to, const Rigid* rigid, int x, int y, double d) {
+Point Predict(const Scene& from, const Scene& to, const std::optional<Rigid>& rigid, int x, int y,
+              double d) {
   const Camera &a = from.camera, &b = to.camera;
   const double du = d / kScale;  // canvas units
   Point p = {(x - 0.5 * (kWidth - 1)) / kScale + a.x + a.u * du,
              (y - 0.5 * (kHeight - 1)) / kScale + a.y + a.v * du};
-  if (rigid != nullptr) p = rigid->Moved(p);
+  if (rigid) p = rigid->Moved(p);
   return {(p.x - b.x - b.u * du) * kScale + 0.5 * (kWidth - 1),
           (p.y - b.y - b.v * du) * kScale + 0.5 * (kHeight - 1)};
 }
@@ -101,14 +103,15 @@ TEST_CASE("motion: a map and the motion predict the next frame inside surfaces")
       for (const bool near : {false, true}) {
         if (near && !still.HasForeground()) continue;
         CAPTURE(near);
-        const Rigid rigid = near ? Rigid(from, to) : Rigid(from, from);
+        std::optional<Rigid> rigid;
+        if (near) rigid.emplace(from, to);
         int count = 0, other = 0;
         double predicted = 0, unmoved = 0, distance = 0;
         for (int y = 0; y < kHeight; ++y) {
           for (int x = 0; x < kWidth; ++x) {
             if (!now.IsMiddle(x, y) || now.IsNear(x, y) != near) continue;
             const float d = now.map.at(x, y);
-            const Point p = Predict(from, to, near ? &rigid : nullptr, x, y, d);
+            const Point p = Predict(from, to, rigid, x, y, d);
             const int px = int(std::floor(p.x + 0.5)), py = int(std::floor(p.y + 0.5));
             if (p.x < 0 || p.y < 0 || p.x >= kWidth - 1 || p.y >= kHeight - 1) continue;
             if (!next.IsMiddle(px, py) || next.IsNear(px, py) != near) continue;
