@@ -118,14 +118,15 @@ auto* ChromaOf(const ImagePlanes<Byte>& image, int32_t x, int32_t y) {
   return WordsOf(chroma, x / 2 * 2, image.format == STARFOCUS_FORMAT_P010 ? y / 2 : y);
 }
 
-void ReadYuvCodes(const ImageSource& image, int32_t x, int32_t y, int32_t count, uint16_t* rgb) {
-  const simd::WordKernels& kernels = simd::BestWordKernels();
-  for (int32_t end = x + count, some; x < end; x += some, rgb += 3 * some) {
-    // If x is odd, convert one pixel first to align with the chroma samples.
-    some = x % 2 != 0 ? 1 : end - x;
-    kernels.YuvWordsToRgb(WordsOf(image, x, y), ChromaOf(image, x, y), static_cast<size_t>(some),
-                          image.Matrix(), rgb);
-  }
+// Reads `count` < kPiece pixels of a deep YUV image. Returns where in `room` they begin: if x is
+// odd, the pixel before them is converted too, because kernels begin with whole pairs.
+const uint16_t* ReadYuvCodes(const ImageSource& image, int32_t x, int32_t y, int32_t count,
+                             uint16_t room[3 * kPiece]) {
+  const int32_t before = x % 2;
+  simd::BestWordKernels().YuvWordsToRgb(WordsOf(image, x - before, y),
+                                        ChromaOf(image, x - before, y),
+                                        static_cast<size_t>(count + before), image.Matrix(), room);
+  return room + 3 * before;
 }
 
 void ReadBytes(const DeepTables& tables, const ImageSource& image, int32_t x, int32_t y,
@@ -199,12 +200,18 @@ void FillDeepTables(int32_t transfer, DeepTables* tables) {
   FillEncode(transfer, tables->encode);
 }
 
+bool MayExceedWhite(const DeepTables& tables, int32_t format) {
+  return IsHalf(format) || tables.encode[kLightWhite] != 65535;
+}
+
 bool IsPlain(const DeepTables& tables, const ImageSource& image, int32_t x, int32_t y,
              int32_t count) {
-  const bool is_half = IsHalf(image.format);
-  if (!is_half && tables.encode[kLightWhite] == 65535 && !image.refocuses_alpha) return true;
-  const bool may_exceed = !is_half && tables.encode[kLightWhite] != 65535;
-  if (!IsDeep(image.format) || image.is_yuv || may_exceed) return false;
+  const bool is_half = IsHalf(image.format), may_exceed = MayExceedWhite(tables, image.format);
+  if (!may_exceed && !image.refocuses_alpha) return true;
+  if (!IsDeep(image.format) || image.is_yuv || (may_exceed && !is_half)) return false;
+  // Hardware prefetchers stop at the end of a page of memory.
+  constexpr int32_t kAhead = 512;  // pixels
+  image.Prefetch(x + kAhead, y, count);
   const uint64_t white = Lanes(0x3C00, 0x3C00), alpha = Lanes(0, OpaqueWord(image.format));
   const uint16_t* const from = WordsOf(image, x, y);
   const size_t step = image.step / 2, words = static_cast<size_t>(count) * step;
@@ -226,10 +233,10 @@ void ReadDeep(const DeepTables& tables, const ImageSource& image, int32_t x, int
     return ReadWords(tables, image, x, y, count, rgb, alpha);
   }
   if (!IsDeep(format)) return ReadBytes(tables, image, x, y, count, rgb);
-  for (int32_t n = 0; n < count; n += kPiece) {
-    uint16_t codes[3 * kPiece];
-    const int32_t some = Min(kPiece, count - n);
-    ReadYuvCodes(image, x + n, y, some, codes);
+  for (int32_t n = 0, some; n < count; n += some) {
+    uint16_t room[3 * kPiece];
+    some = Min(kPiece - 1, count - n);
+    const uint16_t* const codes = ReadYuvCodes(image, x + n, y, some, room);
     LookUp(tables.decode, codes, 3, some, rgb + 3 * n, 3);
   }
 }

@@ -50,6 +50,9 @@ struct DeepTables {
 
 void FillDeepTables(int32_t transfer, DeepTables* tables);
 
+// Returns true if pictures of a format may have light beyond white.
+bool MayExceedWhite(const DeepTables& tables, int32_t format);
+
 // Returns true if `count` pixels of an image, starting at (x, y), are known to be opaque and at
 // most white.
 bool IsPlain(const DeepTables& tables, const ImageSource& image, int32_t x, int32_t y,

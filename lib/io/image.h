@@ -49,6 +49,10 @@ inline constexpr simd::YuvMatrix kYuvMatrices[2][2] = {
     {MakeYuvMatrix(0.2126, 0.0722, false), MakeYuvMatrix(0.2126, 0.0722, true)},
 };
 
+// Returns true if the samples of a format have more than 8 bits.
+constexpr bool IsDeep(int32_t format) { return format >= STARFOCUS_FORMAT_RGB16; }
+constexpr int32_t SampleBytes(int32_t format) { return IsDeep(format) ? 2 : 1; }
+
 // Planes of an image. The type parameter Byte is const for input images. RGB formats use only
 // planes[0], and `step` is the number of bytes from pixel to pixel. YUV formats have planes for
 // luma, U and V, and `step` is the number of bytes from chroma sample to chroma sample.
@@ -73,6 +77,13 @@ struct ImagePlanes {
   Byte* Luma(int32_t x, int32_t y) const {
     return planes[0] + static_cast<size_t>(y) * strides[0] + static_cast<size_t>(x);
   }
+  // Prefetches planes[0] of `count` pixels, starting at (x, y), which may be outside the image.
+  void Prefetch(int32_t x, int32_t y, int32_t count) const {
+    constexpr ptrdiff_t kLine = 64;
+    const ptrdiff_t bytes = is_yuv ? SampleBytes(format) : static_cast<ptrdiff_t>(step);
+    const Byte* const from = planes[0] + y * static_cast<ptrdiff_t>(strides[0]) + x * bytes;
+    for (ptrdiff_t n = 0; n < count * bytes; n += kLine) __builtin_prefetch(from + n);
+  }
   // Returns the sample of chroma plane 1 or 2 for pixel (x, y).
   Byte* Chroma(int plane, int32_t x, int32_t y) const {
     return planes[plane] + static_cast<size_t>(y / 2) * strides[plane] +
@@ -83,8 +94,6 @@ struct ImagePlanes {
 using ImageSource = ImagePlanes<const uint8_t>;
 using ImageTarget = ImagePlanes<uint8_t>;
 
-// Returns true if the samples of a format have more than 8 bits.
-constexpr bool IsDeep(int32_t format) { return format >= STARFOCUS_FORMAT_RGB16; }
 constexpr bool IsYuv(int32_t format) {
   return (format >= STARFOCUS_FORMAT_NV12 && format <= STARFOCUS_FORMAT_YUV_420_888) ||
          format >= STARFOCUS_FORMAT_P010;
@@ -104,7 +113,6 @@ constexpr bool HasAlpha(int32_t format) {
 constexpr bool RefocusesAlpha(int32_t format) {
   return format == STARFOCUS_FORMAT_RGBA16 || format == STARFOCUS_FORMAT_RGBA_HALF;
 }
-constexpr int32_t SampleBytes(int32_t format) { return IsDeep(format) ? 2 : 1; }
 
 // Returns the number of bytes that pixel_stride = 0 selects for a format.
 constexpr int32_t LeastStep(int32_t format) {
