@@ -157,7 +157,8 @@ void AddApertureOptions(Command* command, ApertureOptions* options) {
            "input, otherwise 1",
            FStop(&options->widest)},
           {"--strength", "S",
-           "Percentage of the aperture, 0 to 100; 0 keeps the centre view unchanged",
+           "Percentage of the aperture, 0 to 100; 0 keeps the centre view, whose light is rounded "
+           "to 15 bits if codes have more than 8",
            Number(0, 100, "a percentage from 0 to 100", &options->strength), Use::kOptional,
            nullptr, "100"},
       },

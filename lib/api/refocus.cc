@@ -130,8 +130,6 @@ void CheckPrevious(const EngineState& engine, const FullParams& params, const st
   const Rect rect = RegionOf(config, params);
   if (!check->passed()) return;
   check->Read(*params.previous, "previous.size", previous);
-  check->Need(!HasDeep(config), STARFOCUS_ERROR_FEATURE, {"previous"},
-              {"null with STARFOCUS_FEATURE_DEEP"});
   check->NotNull(previous->light_field, "previous.light_field");
   check->NotNull(previous->out, "previous.out");
   if (!check->passed()) return;
@@ -168,6 +166,8 @@ void CheckPrevious(const EngineState& engine, const FullParams& params, const st
   const Rect rect = RegionOf(config, params);
   CheckOutput(config, out, rect.width, rect.height, check);
   if (params.previous != nullptr) {
+    check->Need(!HasDeep(config), STARFOCUS_ERROR_FEATURE, {"previous"},
+                {"null with STARFOCUS_FEATURE_DEEP"});
     CheckInPlace(config, field, true, check);
     CheckPrevious(*engine, params, out, previous, &before, check);
   }

@@ -2,11 +2,11 @@
 /** @file
  * Refocusing of sparse light fields: the C API of starfocus.
  *
- * The engine takes a light field: 1 to 17 rectified views with 8 bits per sample, and the disparity
- * map of the centre view. The engine computes the picture that a lens would have taken with another
- * focus and another aperture. The views form the star-shaped pattern of the paper, or lie at any
- * positions, for example the positions of a stereo pair. The paper is Huang et al., "Fast
- * Physically-Correct Refocusing for Sparse Light Fields Using Block-Based Multi-Rate View
+ * The engine takes a light field: 1 to 17 rectified views, with 8 bits per sample or more, and the
+ * disparity map of the centre view. The engine computes the picture that a lens would have taken
+ * with another focus and another aperture. The views form the star-shaped pattern of the paper, or
+ * lie at any positions, for example the positions of a stereo pair. The paper is Huang et al.,
+ * "Fast Physically-Correct Refocusing for Sparse Light Fields Using Block-Based Multi-Rate View
  * Interpolation". Numbers in parentheses, such as (9), are equations of the paper.
  *
  * The following function focuses a picture at disparity 3.5:
@@ -515,8 +515,9 @@ typedef struct starfocus_params {
   /** Extent of the range in focus on the far side of `focus`. Disparities from focus -
    *  focus_farther to focus are sharp. Range [0, STARFOCUS_MAX_FOCUS + focus]; default 0. */
   double focus_farther;
-  double aperture; /**< Radius of the aperture (u_t), [0, 1]; at 0 the result is the centre view,
-                      byte for byte; default 1. */
+  /** Radius of the aperture (u_t), [0, 1]; default 1. At 0 the result is the centre view: byte for
+   *  byte, or with STARFOCUS_FEATURE_DEEP with its light rounded to 1/32640 of white. */
+  double aperture;
   double theta; /**< Fall-off: angle of (3) in radians, [STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA];
                      default 0.26 pi. */
   double rotation;   /**< Polygon: rotation in degrees, clockwise, [-360, 360]; default 0: a corner
@@ -640,8 +641,8 @@ STARFOCUS_API void starfocus_destroy_prepared(starfocus_prepared* prepared);
  *  the whole picture has width / S columns and height / S rows, both rounded up. In general, the
  *  output contains the columns from floor(x / S) to floor((x + width - 1) / S) of the reduced
  *  picture, where x and width describe the region. The rows of the output follow from y and height
- *  by the same formula. The alpha of a preview is 255. Previews read only the prepared light field,
- *  and not the views.
+ *  by the same formula. The alpha of a preview is 255, unless it is refocused. Previews read only
+ * the prepared light field, and not the views.
  *
  *  A preview is the picture of a reduced light field, byte for byte. In the reduced light field a
  *  pixel of a view is the mean light of S x S pixels, in steps of 1/128 code. At the right and
