@@ -277,11 +277,12 @@ void KeepRight(const OutlinePass& pass, const starfocus_light_field& light_field
     changes += pass.counts[k].changes;
   }
   ForShiftPatches(pass, tile, [&](int32_t number, const Rect& patch, bool begins) {
-    if (!HasBand(pass, patch)) return;
+    const bool has_band = HasBand(pass, patch);
     const bool right =
-        decides ? IsRight(pass, number, beside, changes) : pass.is_right[number] != 0;
+        has_band && (decides ? IsRight(pass, number, beside, changes) : pass.is_right[number] != 0);
+    // The first pass may move an outline into a patch that had none. There, it is not right.
     if (decides && begins) pass.is_right[number] = right ? 1 : 0;
-    counts->wrong |= !right;
+    counts->wrong |= has_band && !right;
     if (!right) return;
     ForBand(pass, patch, [&](int32_t x, int32_t y, size_t at) {
       if (!Contains(tile, x, y) || pass.side[at] == 0) return;

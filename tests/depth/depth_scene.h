@@ -115,11 +115,11 @@ inline test::Config ConfigOf(const PlaneField& field, float low, float high) {
   return config;
 }
 
-// Owns aligned memory that is filled with kPoison.
+// Owns aligned memory that is filled with one value.
 struct Memory {
-  explicit Memory(size_t size)
+  explicit Memory(size_t size, int fill = kPoison)
       : bytes(size), data(::operator new (size, std::align_val_t{STARFOCUS_ALIGNMENT})) {
-    std::memset(data, kPoison, size);
+    std::memset(data, fill, size);
   }
   ~Memory() { ::operator delete (data, std::align_val_t{STARFOCUS_ALIGNMENT}); }
   Memory(const Memory&) = delete;
@@ -149,14 +149,16 @@ struct MadeMap {
 
 enum class Makes { kEstimate, kRepair, kRepairWithCoverage };
 
-// Estimates or repairs the map of a light field, with memory that lacks `missing` bytes.
+// Estimates or repairs the map of a light field, with memory that lacks `missing` bytes and is
+// filled with `fill`.
 inline MadeMap TryMap(const test::Config& config, const starfocus_light_field& field, Makes makes,
-                      const starfocus_callbacks* callbacks = nullptr, size_t missing = 0) {
+                      const starfocus_callbacks* callbacks = nullptr, size_t missing = 0,
+                      int fill = kPoison) {
   const bool estimates = makes == Makes::kEstimate;
   size_t bytes = 0;
   REQUIRE(starfocus_map_workspace_size(&config, estimates ? 0 : 1, &bytes, nullptr) ==
           STARFOCUS_OK);
-  const Memory memory(bytes - missing);
+  const Memory memory(bytes - missing, fill);
   const auto width = size_t(config.width), pixels = width * size_t(config.height);
   MadeMap made = {std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, kUnset),
                   std::vector<uint8_t>(pixels, kUnset)};

@@ -189,6 +189,25 @@ TEST_CASE("one view: a damaged map becomes the map of the picture") {
   }
 }
 
+// The first pass of a repair moves outlines to places that it has not looked at.
+TEST_CASE("one view: a repaired map does not depend on what was in memory") {
+  for (int wide = 1; wide < 8; ++wide) {
+    Photo photo = MakeDisc(0);
+    const Photo grown = MakeDisc(wide);
+    ForPixels(photo, [&](int x, int y, double) {
+      if (y % 64 < 40) photo.Map(x, y) = grown.map[grown.At(x, y)];
+    });
+    const test::PlaneField plane = {photo.width, photo.height, {photo.rgb}};
+    starfocus_light_field field = plane.Get();
+    field.depth = starfocus_depth_float(photo.map.data(), sizeof(float) * size_t(photo.width),
+                                        photo.width, photo.height);
+    const auto repaired = [&](int fill) {
+      return TryMap(ConfigOf(plane, -8, 8), field, test::Makes::kRepair, nullptr, 0, fill);
+    };
+    CHECK(repaired(0).disparity == repaired(255).disparity);
+  }
+}
+
 TEST_CASE("one view: no bit of a correct map with steps, planes and fractions changes") {
   const Photo disc = MakeDisc(0, 6.0123F, -3.987F);
   Photo plane = MakeDisc(0);
