@@ -18,6 +18,9 @@ constexpr int32_t kMostLength = 8;
 // are whole pixels.
 constexpr uint16_t kMostColour = 27 * 9;
 
+// Weight of the variance of steps against that of disparities in the prior of FitDrift.
+constexpr double kDriftNoise = 8;
+
 // Motions that the pixels of a block may follow: those of the block and of its neighbours.
 struct Candidates {
   Motion motions[9];
@@ -103,27 +106,35 @@ DriftSums SumDrift(const Stabiliser& s, int32_t row, int32_t tolerance, const Dr
       if (now.count.Row(y)[x] == 0 || given == simd::kNoSurface) continue;
       const int32_t before = now.disparity.Row(y)[x];
       if (std::abs(Drifted(drift, given) - before) > tolerance) continue;
-      const int32_t step = before - given;
+      const int32_t step = given - before;
       ++sums.count;
-      sums.x += given;
+      sums.x += before;
       sums.y += step;
-      sums.xx += given * given;
-      sums.xy += given * step;
+      sums.xx += before * before;
+      sums.xy += before * step;
+      sums.yy += step * step;
     }
   }
   return sums;
 }
 
-// Returns the drift of least squares. Its scale is at most 1/4 and needs several disparities.
+// Returns the drift of least squares. Its scale is at most 1/4. The steps are fitted to the
+// disparities before, which are means of several frames: noise of the disparities that a line is
+// fitted to makes the line flatter.
 Drift FitDrift(const DriftSums& s) {
   if (s.count == 0) return {0, 0};
   const double n = double(s.count), mean_x = double(s.x) / n, mean_y = double(s.y) / n;
   const double variance = double(s.xx) / n - mean_x * mean_x;
   const double covariance = double(s.xy) / n - mean_x * mean_y;
-  // The prior of no change of scale has the weight of disparities that vary by a pixel.
-  double scale = covariance / (variance + (1 << (2 * kDisparityBits)));
-  scale = scale < -0.25 ? -0.25 : scale > 0.25 ? 0.25 : scale;
-  const double offset = mean_y - scale * mean_x;
+  const double noise = double(s.yy) / n - mean_y * mean_y;
+  // The prior of no change of scale has the weight of disparities that vary by a pixel, or more if
+  // the steps are noise.
+  const double prior = (1 << (2 * kDisparityBits)) + kDriftNoise * noise;
+  const double found = covariance / (variance + prior);
+  const double slope = found < -1.0 / 5 ? -1.0 / 5 : found > 1.0 / 3 ? 1.0 / 3 : found;
+  // A disparity of the map is now (1 + slope) times that before, plus a constant.
+  const double scale = -slope / (1 + slope);
+  const double offset = (slope * mean_x - mean_y) / (1 + slope);
   return {static_cast<int32_t>(scale * (1 << kDriftBits)), static_cast<int32_t>(offset)};
 }
 
@@ -218,6 +229,7 @@ starfocus_status FindDrift(const Stabiliser& s, Drift* drift) {
       sum.y += s.sums[row].y;
       sum.xx += s.sums[row].xx;
       sum.xy += s.sums[row].xy;
+      sum.yy += s.sums[row].yy;
     }
     *drift = FitDrift(sum);
   }

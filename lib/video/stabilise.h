@@ -29,7 +29,7 @@ struct StableFrame {
 
 // Sums of a band of rows, for the change of all disparities since the frame before.
 struct DriftSums {
-  int64_t count, x, y, xx, xy;
+  int64_t count, x, y, xx, xy, yy;
 };
 
 struct StabiliserReport {

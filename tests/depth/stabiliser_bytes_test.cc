@@ -186,6 +186,23 @@ TEST_CASE("stabiliser: the scale of maps is that of the frames before") {
   CHECK(video.report.scale == doctest::Approx(1 / 1.1).epsilon(0.02));
 }
 
+// A line through noisy disparities of one surface is flatter than their scale.
+TEST_CASE("stabiliser: noise of a flat scene does not change the scale of maps") {
+  World world;
+  const int side = world.side;
+  test::Random random(5);
+  Video video(world.width, world.height);
+  for (int k = 0; k < 12; ++k) {
+    world.side = k < 11 ? 0 : side;
+    Frame frame = world.Make(k);
+    for (float& d : frame.map) d += float(random.Real(-1, 1));
+    const std::vector<float> map = video.Next(frame);
+    CAPTURE(k);
+    CHECK(video.report.scale == doctest::Approx(1).epsilon(0.03));
+    if (k == 11) CHECK(MeanError(frame, map) < 0.4);
+  }
+}
+
 TEST_CASE("stabiliser: a cut starts anew, and so does a restart") {
   const World world;
   Video video(world.width, world.height);
@@ -264,7 +281,7 @@ TEST_CASE("stabiliser: bytes do not depend on workers, memory or failed calls") 
     CHECK(many.confidence == one.confidence);
     for (const float d : expected) checksum = 31 * checksum + uint64_t(int64_t(d * 64) + 4096);
   }
-  CHECK(checksum == 17511997630515881265u);  // on every machine
+  CHECK(checksum == 16511006968239513453u);  // on every machine
 }
 
 TEST_CASE("stabiliser: small and odd sizes") {
