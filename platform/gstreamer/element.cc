@@ -253,6 +253,10 @@ gboolean SinkEvent(GstAggregator* aggregator, GstAggregatorPad* pad, GstEvent* e
     gst_event_parse_caps(event, &caps);
     const bool is_set = SetCaps(self, pad, caps);
     gst_event_unref(event);
+    if (!gst_pad_is_linked(GST_PAD(self->depth))) {
+      GST_ELEMENT_WARNING(self, STREAM, FAILED, ("waiting until the pad depth is linked"),
+                          (nullptr));
+    }
     return is_set ? TRUE : FALSE;
   }
   // A segment also follows each flush.

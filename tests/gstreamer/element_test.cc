@@ -187,9 +187,11 @@ class Pipeline {
     GstMessage* const message = gst_bus_timed_pop_filtered(bus_, 20 * GST_SECOND, type);
     if (message == nullptr) return "no message";
     std::string text;
-    if (type == GST_MESSAGE_ERROR) {
+    if (type == GST_MESSAGE_ERROR || type == GST_MESSAGE_WARNING) {
       GError* error = nullptr;
-      gst_message_parse_error(message, &error, nullptr);
+      const auto parse =
+          type == GST_MESSAGE_ERROR ? gst_message_parse_error : gst_message_parse_warning;
+      parse(message, &error, nullptr);
       text = error->message;
       g_error_free(error);
     } else {
@@ -484,6 +486,12 @@ TEST_CASE("element: errors name their cause") {
   gst_harness_push_event(alone.at_depth, gst_event_new_eos());
   alone.PushVideo(0);
   CHECK(alone.Message(GST_MESSAGE_ERROR) == "the pad depth received no frame");
+  Pipeline unlinked(kVideo, kDepth);
+  GstPad* const depth = gst_element_get_static_pad(unlinked.element, "depth");
+  gst_pad_unlink(unlinked.at_depth->srcpad, depth);
+  gst_object_unref(depth);
+  gst_harness_set_src_caps_str(unlinked.at_video, kVideo.c_str());
+  CHECK(unlinked.Message(GST_MESSAGE_WARNING) == "waiting until the pad depth is linked");
 }
 
 }  // namespace
