@@ -52,6 +52,36 @@ std::optional<NamePattern> ParsePattern(const std::string& name) {
   return {};
 }
 
+// Returns an error if there are files before and after a number that no file has.
+Error CheckGaps(const std::string& path, const std::map<uint64_t, std::string>& files) {
+  uint64_t next = files.begin()->first;
+  for (const auto& [number, file] : files) {
+    if (number != next) {
+      return Expected(path, "a file with number " + std::to_string(next), "none before " + file);
+    }
+    ++next;
+  }
+  return {};
+}
+
+// Returns the files by the last numbers of their names. Returns nothing if the names differ in
+// more, or if they have few of the numbers between the first and the last.
+std::map<uint64_t, std::string> NumberFiles(const std::vector<std::string>& paths) {
+  std::map<uint64_t, std::string> files;
+  const NumberedName first = ParseNumberedName(fs::path(paths[0]).filename().string());
+  for (const std::string& path : paths) {
+    const NumberedName name = ParseNumberedName(fs::path(path).filename().string());
+    if (name.numbers.empty() || name.numbers.back().size() > 18 || name.shape != first.shape) {
+      return {};
+    }
+    files[std::strtoull(name.numbers.back().c_str(), nullptr, 10)] = path;
+  }
+  const uint64_t numbers = files.rbegin()->first - files.begin()->first + 1;
+  return files.size() == paths.size() && 2 * files.size() > numbers
+             ? files
+             : std::map<uint64_t, std::string>();
+}
+
 // Lists the pictures of a folder in natural order.
 Result<std::vector<std::string>> ListPictureFolder(const std::string& folder) {
   const Result<std::vector<std::string>> names = ListFolder(folder);
@@ -65,6 +95,8 @@ Result<std::vector<std::string>> ListPictureFolder(const std::string& folder) {
   }
   if (paths.empty()) return Expected(folder, "a folder with pictures", "none");
   std::sort(paths.begin(), paths.end(), NaturalLess);
+  const std::map<uint64_t, std::string> numbered = NumberFiles(paths);
+  if (Error error = numbered.empty() ? Error() : CheckGaps(folder, numbered)) return error;
   return paths;
 }
 
@@ -95,14 +127,9 @@ Result<std::vector<std::string>> ListPictures(const std::string& path) {
   if (!IsFramePattern(path)) return std::vector<std::string>{path};
   const Result<std::map<uint64_t, std::string>> files = FindPatternFiles(path);
   if (!files) return files.error();
+  if (Error error = CheckGaps(path, *files)) return error;
   std::vector<std::string> paths;
-  for (const auto& [number, file] : *files) {
-    const uint64_t next = files->begin()->first + paths.size();
-    if (number != next) {
-      return Expected(path, "a file with number " + std::to_string(next), "none before " + file);
-    }
-    paths.push_back(file);
-  }
+  for (const auto& [number, file] : *files) paths.push_back(file);
   return paths;
 }
 

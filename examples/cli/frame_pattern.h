@@ -20,8 +20,8 @@ bool IsFramePattern(const std::string& path);
 Result<std::map<uint64_t, std::string>> FindPatternFiles(const std::string& pattern);
 
 // Returns the pictures that `path` stands for, in the order of their numbers: the files of a
-// pattern or of a folder, or the only file `path`. Returns an error if the pattern has a gap,
-// because a missing picture would shift all pictures that follow.
+// pattern or of a folder, or the only file `path`. Returns an error if a number of the pattern is
+// missing, or of a folder that has most numbers, because all pictures that follow would be shifted.
 Result<std::vector<std::string>> ListPictures(const std::string& path);
 
 // Returns the picture of each frame: the file of the pattern with the last number in the name of

@@ -226,8 +226,7 @@ Error FollowSubjects(const std::string& where, size_t frame, starfocus_stabilise
       if (key.subject.lost > 0 || !focus) focus = key.disparity;
     }
     SetDisparity(std::clamp(*focus, double(range.min), double(range.max)), k, keys);
-    const std::string subject =
-        "frame " + std::to_string(frame) + ": the subject of " + key.text + " is ";
+    const std::string subject = "the subject of " + key.text + " is ";
     if (!was_lost && key.subject.lost > 0)
       TellNote(where, subject + "lost; its last focus is kept");
     if (was_lost && key.subject.lost == 0) TellNote(where, subject + "found again");

@@ -367,7 +367,7 @@ Result<bool> StabiliseFrame(const VideoOptions& options, const LensPlan& plan, V
   }
   std::vector<FocusKey>* const keys = &video->focus_keys;
   if (!error && video->tracks()) {
-    error = FollowSubjects(video->first(), frame->index, video->stabiliser->get(), range,
+    error = FollowSubjects(frame->where, frame->index, video->stabiliser->get(), range,
                            keeps_map ? &light_field : nullptr, keys);
   }
   if (error) return error;
