@@ -32,7 +32,13 @@ bool IsAlwaysDeep(const std::string& path) {
   return KeepsBits(path) && FormatExtension(path) != ".png";
 }
 
-// Makes deep views of views of 8 bits if the output has more bits.
+bool IsTiff(const std::string& path) {
+  const std::string extension = FormatExtension(path);
+  return extension == ".tif" || extension == ".tiff";
+}
+
+// Makes deep views of views of 8 bits if the output has more bits. The views of TIFF files, which
+// have no light beyond white, are without that of the gain map.
 void Deepen(const std::string& path, Capture* capture) {
   LightField& light_field = capture->light_field;
   if (!IsAlwaysDeep(path) || !light_field.deep.empty()) return;
@@ -40,8 +46,9 @@ void Deepen(const std::string& path, Capture* capture) {
   light_field.deep_colours = metadata.icc.empty()
                                  ? metadata.colours
                                  : DescriptionOf(metadata.icc).value_or(ColourDescription());
-  if (!capture->gain_map.levels.empty()) {
+  if (!capture->gain_map.levels.empty() && !IsTiff(path)) {
     light_field.deep.push_back(ApplyGainMap(light_field.views[0], capture->gain_map));
+    capture->gain_map = {};
     return;
   }
   for (const Image& view : light_field.views) {
@@ -69,19 +76,20 @@ void TellBits(const Capture& capture) {
 
 // Prints a note if the capture has a gain map that the output does not keep.
 void TellLostGainMap(const OutputOptions& output, bool single, const Capture& capture) {
-  if (capture.gain_map.levels.empty() || !capture.light_field.deep.empty()) return;
+  if (capture.gain_map.levels.empty()) return;
   if (single && WritesGainMap(output, capture)) return;
   const char* reason = output.depth_photo ? "depth photos have none"
                        : !single          ? "sweeps, animations and streams have none"
-                                          : ".jpg, .exr, .avif and .heic files keep its light";
+                       : IsAlwaysDeep(output.out) && !IsTiff(output.out)
+                           ? ".jpg files keep that of a picture of more than 8 bits"
+                           : ".jpg, .exr, .avif and .heic files keep its light";
   TellNote(capture.path, std::string("the gain map is left out; ") + reason);
 }
 
 // Returns an error if the format of `path` does not describe the light of a picture. Encodes one
 // pixel, so that this error is reported before the picture is computed.
 Error CheckLight(const std::string& path, const DeepImage& picture) {
-  const std::string extension = FormatExtension(path);
-  if (extension != ".tif" && extension != ".tiff") return {};
+  if (!IsTiff(path)) return {};
   DeepImage pixel(1, 1, picture.channels);
   pixel.is_half = picture.is_half;
   pixel.transfer = picture.transfer;
