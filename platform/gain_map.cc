@@ -183,6 +183,20 @@ std::vector<double> FitLevels(const Gains& gains, size_t width, size_t height) {
   return fitted;
 }
 
+// Limits the stops of a channel to the range of a map with one offset, from 0, for both pictures
+// and all colours. Light + offset is a multiple of base + offset there, and so are their means.
+void LimitStops(const GainMap& given, size_t channel, std::vector<double>* stops) {
+  const std::array<double, kColours>& offsets = given.offset_sdr;
+  if (offsets != given.offset_hdr || offsets[0] != offsets[1] || offsets[0] != offsets[2]) return;
+  if (offsets[0] < 0) return;
+  double low = given.min[channel], high = given.max[channel];
+  if (given.channels == 1) {
+    low = *std::min_element(given.min.begin(), given.min.end());
+    high = *std::max_element(given.max.begin(), given.max.end());
+  }
+  for (double& stop : *stops) stop = std::clamp(stop, low, high);
+}
+
 // Sets the levels of one channel, and the range of the colours that it serves. The limits of the
 // range are multiples of 2^-20 stops, which XMP and ISO 21496-1 can both store.
 void StoreLevels(const std::vector<double>& stops, size_t channel, GainMap* map) {
@@ -263,34 +277,36 @@ DeepImage ApplyGainMap(const Image& base, const GainMap& map) {
   return light;
 }
 
-GainMap ComputeGainMap(const Image& base, const DeepImage& light, int step, int channels,
-                       double offset) {
+GainMap ComputeGainMap(const Image& base, const DeepImage& light, int step, const GainMap& given) {
   GainMap map;
   map.width = (base.width + step - 1) / step;
   map.height = (base.height + step - 1) / step;
-  map.channels = channels;
-  map.offset_sdr.fill(offset);
-  map.offset_hdr.fill(offset);
+  map.channels = given.channels;
+  map.format = given.format;
+  map.offset_sdr.fill(given.offset_sdr[0]);
+  map.offset_hdr = map.offset_sdr;
+  map.capacity_min = given.capacity_min;
+  map.capacity_max = std::max(given.capacity_max, given.capacity_min + 1.0 / 64);
   const size_t width = static_cast<size_t>(map.width), height = static_cast<size_t>(map.height);
   const size_t levels = width * height;
-  map.levels.resize(levels * static_cast<size_t>(channels));
+  map.levels.resize(levels * static_cast<size_t>(map.channels));
   const Gains none = {std::vector<double>(levels), std::vector<double>(levels),
                       std::vector<float>(levels, HUGE_VALF),
                       std::vector<float>(levels, -HUGE_VALF)};
-  std::vector<Gains> gains(static_cast<size_t>(channels), none);
+  std::vector<Gains> gains(static_cast<size_t>(map.channels), none);
   const std::vector<size_t> columns = OwnersOf(base.width, map.width);
   const std::vector<size_t> rows = OwnersOf(base.height, map.height);
   for (int y = 0; y < base.height; ++y) {
     AddRow(base.row(y), light.row(y), static_cast<size_t>(light.channels),
-           static_cast<float>(offset), columns, rows[static_cast<size_t>(y)] * width, &gains);
+           static_cast<float>(map.offset_sdr[0]), columns, rows[static_cast<size_t>(y)] * width,
+           &gains);
   }
   for (size_t c = 0; c < gains.size(); ++c) {
     for (size_t k = 0; k < levels; ++k) gains[c].mean[k] /= gains[c].weight[k];
-    StoreLevels(FitLevels(gains[c], width, height), c, &map);
+    std::vector<double> stops = FitLevels(gains[c], width, height);
+    LimitStops(given, c, &stops);
+    StoreLevels(stops, c, &map);
   }
-  map.capacity_min = std::max(*std::min_element(map.min.begin(), map.min.end()), 0.0);
-  map.capacity_max =
-      std::max(*std::max_element(map.max.begin(), map.max.end()), map.capacity_min + 1.0 / 64);
   return map;
 }
 

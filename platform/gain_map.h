@@ -49,20 +49,21 @@ Error CheckGainMap(const std::string& where, const GainMap& map);
 DeepImage ApplyGainMap(const Image& base, const GainMap& map);
 
 // Computes the gain map that converts `base` to `light`, half floats of the same size with at least
-// three channels. A level of the map belongs to `step` x `step` pixels. With `channels` = 1, the
-// gain is that of the luminance, and with 3, each colour has its own.
+// three channels. Both are means of the base and the light of a photograph whose map is `given`. A
+// level of the map belongs to `step` x `step` pixels. With one channel, the gain is that of the
+// luminance, and with 3, each colour has its own.
 //
-// `offset` is that of both pictures in the equation: a small offset follows the light of dark
-// places more closely, and a large one keeps the rounding of dark codes out of the map. If the
-// light comes from the gain map of a photograph, that map's offset fits best: 74 dB in PQ for a
-// photograph with the offset 0, and 58, 53, 49 and 45 dB with 1/4096, 1/1024, 1/256 and 1/64
-// (tests/programs/ultra_hdr_test.cc).
+// The map has the channels, the format and the capacities of `given`, so that displays show the
+// same share of the light, and the offset of its first colour for both pictures. Other offsets fit
+// worse: the map of a photograph with the offset 0 has 74 dB in PQ with that offset, and 58, 53, 49
+// and 45 dB with 1/4096, 1/1024, 1/256 and 1/64 (tests/programs/ultra_hdr_test.cc).
 //
-// The range of the map is that of the gains that occur, so no light is cut off. Levels are chosen
-// so that the enlarged map has the right weighted mean gain, in stops, over the pixels of each
-// level. They are multiples of 257, which 8 bits store exactly.
-GainMap ComputeGainMap(const Image& base, const DeepImage& light, int step, int channels,
-                       double offset = 1.0 / 1024);
+// The range of the map is that of the gains that occur, so no light is cut off. If the offsets of
+// `given` are one number from 0, the gains of means lie in the range of `given`, and gains beyond,
+// which rounding of dark codes causes, are limited to it. Levels are chosen so that the
+// enlarged map has the right weighted mean gain, in stops, over the pixels of each level. They are
+// multiples of 257, which 8 bits store exactly.
+GainMap ComputeGainMap(const Image& base, const DeepImage& light, int step, const GainMap& given);
 
 }  // namespace starfocus
 

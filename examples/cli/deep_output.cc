@@ -203,8 +203,7 @@ Error WriteUltraHdr(const std::string& path, const PictureOptions& how, const Ca
     Result<EngineResult> result = run.Refocus(InputName(capture.path), hdr);
     if (!result) return result.error();
     const int step = std::max(1, (light_field.width() + given.width / 2) / given.width);
-    GainMap map = ComputeGainMap(picture, result->deep, step, given.channels, given.offset_sdr[0]);
-    map.format = given.format;
+    const GainMap map = ComputeGainMap(picture, result->deep, step, given);
     return WriteFile(path, EncodeUltraHdr(path, picture, map, how.quality, how.metadata));
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "write it");

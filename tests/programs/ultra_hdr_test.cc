@@ -67,6 +67,18 @@ double Pq(double light) {
   return std::pow((3424.0 / 4096 + 2413.0 / 128 * power) / (1 + 2392.0 / 128 * power), 2523.0 / 32);
 }
 
+// Returns a map without levels that limits no gain.
+GainMap Like(int channels, double offset = 1.0 / 1024) {
+  GainMap map;
+  map.channels = channels;
+  map.min.fill(-64);
+  map.max.fill(64);
+  map.offset_sdr.fill(offset);
+  map.offset_hdr = map.offset_sdr;
+  map.capacity_max = 3;
+  return map;
+}
+
 struct Errors {
   double largest = 0;  // largest error in stops of light + 1/64
   double psnr = 0;     // of codes of PQ, in dB
@@ -111,7 +123,7 @@ TEST_CASE("gain maps: the map of a picture that a map made is that map") {
         }
       }
       const DeepImage light = ApplyGainMap(base, map);
-      const GainMap again = ComputeGainMap(base, light, step, channels, 1.0 / 64);
+      const GainMap again = ComputeGainMap(base, light, step, map);
       REQUIRE(again.width == map.width);
       REQUIRE(again.channels == channels);
       CHECK(Compare(light, ApplyGainMap(base, again)).psnr > 50);
@@ -126,12 +138,33 @@ TEST_CASE("gain maps: no light is cut off, and small bright places get no dark r
   for (int y = 8; y < 12; ++y) {
     for (int k = 3 * 8; k < 3 * 12; ++k) light.row(y)[k] = HalfOfFloat(100);
   }
-  const GainMap map = ComputeGainMap(base, light, 4, 1);
+  const GainMap map = ComputeGainMap(base, light, 4, Like(1));
   CHECK(map.min[0] == doctest::Approx(0));
   CHECK(map.max[0] == doctest::Approx(std::log2((100 + 1.0 / 1024) / (1 + 1.0 / 1024))));
-  CHECK(map.capacity_max == map.max[0]);
+  CHECK(map.capacity_min == 0);
+  CHECK(map.capacity_max == 3);
   const DeepImage result = ApplyGainMap(base, map);
   for (const uint16_t half : result.samples) CHECK(FloatOfHalf(half) > 0.99F);
+}
+
+TEST_CASE("gain maps: gains that rounding causes do not widen the range") {
+  Image base = Plain(32, 24, 255);
+  DeepImage light = Light(32, 24);
+  std::fill(light.samples.begin(), light.samples.end(), HalfOfFloat(4));
+  for (int y = 0; y < 4; ++y) {
+    // Light of half a code where the code is 0: 7 stops at the offset 0.
+    std::fill_n(base.row(y), 3 * 16, uint8_t{0});
+    std::fill_n(light.row(y), 3 * 16, HalfOfFloat(0.002F));
+  }
+  GainMap given = Like(1, 0);
+  given.min.fill(0);
+  given.max.fill(2.5);
+  const GainMap map = ComputeGainMap(base, light, 4, given);
+  CHECK(map.min[0] == doctest::Approx(2));
+  CHECK(map.max[0] == 2.5);
+  // Gains of different offsets have no such limit.
+  given.offset_hdr.fill(1.0 / 1024);
+  CHECK(ComputeGainMap(base, light, 4, given).max[0] > 2.6);
 }
 
 TEST_CASE("gain maps: pictures without a gain and with damaged light have valid maps") {
@@ -140,7 +173,7 @@ TEST_CASE("gain maps: pictures without a gain and with damaged light have valid 
   for (const uint16_t half : {0x0000, 0x7c00, 0x7e00, 0xfe00, 0x8001, 0x3c00}) {
     std::fill(light.samples.begin(), light.samples.end(), half);
     for (const int channels : {1, 3}) {
-      const GainMap map = ComputeGainMap(base, light, 4, channels);
+      const GainMap map = ComputeGainMap(base, light, 4, Like(channels));
       CHECK(CheckGainMap("map", map) == "");
       CHECK(map.capacity_min < map.capacity_max);
       CHECK(map.width == 2);
@@ -162,7 +195,7 @@ TEST_CASE("Ultra HDR: a file gives the light from which it was made") {
   for (const auto& row : kCases) {
     const auto [step, channels, stops, psnr] = row;
     CAPTURE(&row - kCases);
-    const GainMap map = ComputeGainMap(base, light, step, channels);
+    const GainMap map = ComputeGainMap(base, light, step, Like(channels));
     const Bytes file = ValueOf(EncodeUltraHdr("out.jpg", base, map, 100, {}));
     const DepthPhoto photo = ValueOf(Decode(file));
     REQUIRE(photo.gain_map.format == "ISO 21496-1");
@@ -199,8 +232,8 @@ Metadata SomeMetadata() {
 Bytes SomeFile(int channels, const Metadata& metadata) {
   const DeepImage light = SmoothLight(160, 120);
   const Image base = BaseOf(light);
-  return ValueOf(
-      EncodeUltraHdr("out.jpg", base, ComputeGainMap(base, light, 2, channels), 95, metadata));
+  return ValueOf(EncodeUltraHdr("out.jpg", base, ComputeGainMap(base, light, 2, Like(channels)), 95,
+                                metadata));
 }
 
 TEST_CASE("Ultra HDR: a file keeps EXIF, profile, captions and IPTC of the photo") {
@@ -289,7 +322,7 @@ TEST_CASE("Ultra HDR: a photograph keeps its light in a new map and in a new fil
   REQUIRE(old.width == 1020);
   CHECK(old.max[0] == doctest::Approx(2.656715));
   const DeepImage light = ApplyGainMap(photo.picture, old);
-  const GainMap map = ComputeGainMap(photo.picture, light, 4, 1, old.offset_sdr[0]);
+  const GainMap map = ComputeGainMap(photo.picture, light, 4, old);
   // Measured: 74.2 dB with the new map, 72.3 dB after its compression as JPEG, and 49.7 dB after
   // that of the base. With the default offset: 53.1 dB, as the old map has offsets of 0.
   CHECK(Compare(light, ApplyGainMap(photo.picture, map)).psnr > 73);
