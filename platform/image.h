@@ -42,7 +42,7 @@ struct DeepImage {
   int height = 0;
   int channels = 3;                            // 3: R, G and B; 4: also alpha
   bool is_half = false;                        // true: IEEE half floats
-  int bits = 16;                               // bits that files of integers have, from 8
+  int bits = 16;                               // bits of each sample in the file, from 8
   int32_t transfer = STARFOCUS_TRANSFER_SRGB;  // starfocus_transfer of integers
   std::vector<uint16_t> samples;               // rows without padding
 

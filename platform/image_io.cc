@@ -62,10 +62,7 @@ Result<DecodedPicture> DecodeImage(const std::string& where, const Bytes& bytes)
   if (IsWebp(bytes)) return DecodeWebp(where, bytes);
   if (IsJpegStart(bytes)) return WithoutMetadata(DecodeJpeg(where, bytes));
   if (IsTiff(bytes)) return DecodeTiffPicture(where, bytes);
-  if (IsExr(bytes)) {
-    std::vector<std::string> notes;
-    return DecodeExr(where, bytes, &notes);
-  }
+  if (IsExr(bytes)) return DecodeExr(where, bytes);
   return Expected(
       where, kFormats,
       DescribeFile(bytes, " (convert it to PNG or JPEG, for example with ImageMagick)"));

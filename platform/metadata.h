@@ -32,8 +32,9 @@ struct DecodedPicture {
   Image image;                    // The picture in 8 bits.
   std::optional<DeepImage> deep;  // The same picture, if the file has more than 8 bits or alpha.
   Metadata metadata;
-  bool is_transparent = false;  // True if the file has an alpha channel that is not opaque.
-  int bits = 8;                 // Bits of each sample in the file, if `deep` has a value.
+  bool is_transparent = false;          // True if the file has an alpha channel that is not opaque.
+  int bits = 8;                         // Bits of each sample in the file, if `deep` has a value.
+  std::vector<std::string> notes = {};  // What the decoder chose and left out, for users.
 };
 
 inline Result<DecodedPicture> WithoutMetadata(Result<Image> image) {

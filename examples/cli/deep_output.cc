@@ -74,6 +74,13 @@ void TellBits(const Capture& capture) {
   for (const std::string& note : notes) TellNote(capture.path, note);
 }
 
+// Prints a note if the light has more than 16 bits.
+void TellRounding(const Capture& capture) {
+  const std::vector<DeepImage>& deep = capture.light_field.deep;
+  if (deep.empty() || !deep[0].is_half || deep[0].bits <= 16) return;
+  TellNote(capture.path, "floats of 32 bits are rounded to half floats");
+}
+
 // Prints a note if the capture has a gain map that the output does not keep.
 void TellLostGainMap(const OutputOptions& output, bool single, const Capture& capture) {
   if (capture.gain_map.levels.empty()) return;
@@ -132,6 +139,7 @@ Error ChooseBits(const OutputOptions& output, bool single, Capture* capture, Eng
   const bool keeps = keeps_alpha || (single && KeepsBits(path));
   if (keeps_alpha) TellBits(*capture);
   if (!keeps || replaces) TellLostBits(*capture);
+  if (keeps) TellRounding(*capture);
   // Pictures without alpha show the colours of transparent pixels, and those of a sweep no light
   // beyond white.
   if (!keeps && (has_alpha || (is_hdr && !single))) light_field.deep.clear();

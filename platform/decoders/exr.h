@@ -5,7 +5,6 @@
 #define STARFOCUS_PLATFORM_DECODERS_EXR_H_
 
 #include <string>
-#include <vector>
 
 #include "platform/file.h"
 #include "platform/levels.h"
@@ -18,10 +17,8 @@ namespace starfocus {
 // floats and an 8-bit picture, both of the size of the display window. Pixels that the file does
 // not store are black and transparent. In a file of several parts, layers or views, the first
 // picture that does not belong to a right view is decoded. Channels of 32 bits are rounded to half
-// floats, and samples that are not finite are replaced. `notes` receives what was chosen and
-// replaced. `where` appears only in error messages.
-Result<DecodedPicture> DecodeExr(const std::string& where, const Bytes& exr,
-                                 std::vector<std::string>* notes);
+// floats, and infinite samples are limited. `where` appears only in error messages.
+Result<DecodedPicture> DecodeExr(const std::string& where, const Bytes& exr);
 
 // Decodes a depth map: the channel Z, otherwise a horizontal disparity (disparity.x), otherwise a
 // channel whose name starts with "depth", otherwise the only channel of the file. Pixels that the

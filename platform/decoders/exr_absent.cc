@@ -11,8 +11,7 @@ Error WithoutOpenExr(const std::string& where) {
 
 }  // namespace
 
-Result<DecodedPicture> DecodeExr(const std::string& where, const Bytes&,
-                                 std::vector<std::string>*) {
+Result<DecodedPicture> DecodeExr(const std::string& where, const Bytes&) {
   return WithoutOpenExr(where);
 }
 

@@ -317,8 +317,14 @@ const ExrChannel* ChooseChannel(const std::vector<ExrChannel>& channels, bool is
   return channels.size() == 1 ? &channels[0] : nullptr;
 }
 
-Result<DecodedPicture> DecodeColours(const std::string& where, const Bytes& exr,
-                                     std::vector<std::string>* notes) {
+// Returns true if a channel has samples of 32 bits.
+bool HasWideSamples(const Imf::Header& header, const std::vector<std::string>& names) {
+  return std::any_of(names.begin(), names.end(), [&header](const std::string& name) {
+    return header.channels()[name].type != Imf::HALF;
+  });
+}
+
+Result<DecodedPicture> DecodeColours(const std::string& where, const Bytes& exr) {
   ExrInput stream(exr);
   Imf::MultiPartInputFile file(stream, 0, false);
   const std::vector<ExrChannel> channels = ListChannels(file);
@@ -348,14 +354,15 @@ Result<DecodedPicture> DecodeColours(const std::string& where, const Bytes& exr,
                }
              }
            });
-  picture.bits = 16;  // floats are rounded
+  picture.bits = HasWideSamples(file.header(chosen.part), chosen.channels) ? 32 : 16;
+  deep.bits = picture.bits;
   picture.is_transparent = DropOpaqueAlpha(&deep);
   picture.image = ToImage(deep);
   picture.metadata.colours = ReadChromaticities(file.header(chosen.part));
   if (pictures.size() > 1) {
-    notes->push_back("the file has " + std::to_string(pictures.size()) +
-                     " pictures, of which the program reads " +
-                     (chosen.name.empty() ? "the first" : chosen.name));
+    picture.notes.push_back("the file has " + std::to_string(pictures.size()) +
+                            " pictures, of which the program reads " +
+                            (chosen.name.empty() ? "the first" : chosen.name));
   }
   return picture;
 }
@@ -396,9 +403,8 @@ Result<Samples> DecodeChannel(const std::string& where, bool is_matte, const Byt
 
 }  // namespace
 
-Result<DecodedPicture> DecodeExr(const std::string& where, const Bytes& exr,
-                                 std::vector<std::string>* notes) {
-  return CatchExr<DecodedPicture>(where, exr, [&] { return DecodeColours(where, exr, notes); });
+Result<DecodedPicture> DecodeExr(const std::string& where, const Bytes& exr) {
+  return CatchExr<DecodedPicture>(where, exr, [&] { return DecodeColours(where, exr); });
 }
 
 Result<Samples> DecodeExrSamples(const std::string& where, bool is_matte, const Bytes& exr) {

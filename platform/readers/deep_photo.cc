@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -39,6 +40,7 @@ void TakePicture(DecodedPicture picture, DepthPhoto* photo) {
   photo->picture = std::move(picture.image);
   photo->metadata = std::move(picture.metadata);
   photo->deep = std::move(picture.deep);
+  std::move(picture.notes.begin(), picture.notes.end(), std::back_inserter(photo->notes));
   if (!photo->deep) return;
   const DeepImage& deep = *photo->deep;
   photo->deep_colours = photo->metadata.colours;

@@ -335,7 +335,7 @@ Error FindMatte(const std::string& path, const DepthOptions& options, const Phot
 Result<DepthPhoto> DecodeExrPhoto(const std::string& where, const Bytes& bytes, bool with_map) {
   DepthPhoto photo;
   photo.format = "OpenEXR picture with depth";
-  Result<DecodedPicture> picture = DecodeExr(where, bytes, &photo.notes);
+  Result<DecodedPicture> picture = DecodeExr(where, bytes);
   if (!picture) return picture.error();
   const bool is_transparent = picture->is_transparent;
   TakePicture(std::move(*picture), &photo);

@@ -217,7 +217,7 @@ TEST_CASE("facts: bits, transfer, primaries, alpha and headroom describe picture
   if (!HasExr()) return;
   ExrPart part = Colours(6.5F);
   part.channels.insert(part.channels.begin(), {"A", true, {0.5F, 1}});
-  CHECK(facts(Exr({part})) == FactList{{"samples", "16 bits, floats"},
+  CHECK(facts(Exr({part})) == FactList{{"samples", "32 bits, floats"},
                                        {"transfer", "linear light"},
                                        {"primaries", "BT.709"},
                                        {"alpha", "premultiplied"},

@@ -56,6 +56,7 @@ TEST_CASE("OpenEXR: colours of the display window are read as half floats") {
   CHECK(std::vector<int>(plain->image.pixels.begin(), plain->image.pixels.end()) ==
         std::vector<int>{255, 0, 255, 0, 137, 188});
   CHECK_FALSE(plain->is_transparent);
+  CHECK(plain->deep->bits == 32);  // R
   // Premultiplied colours; the display window is larger than the data window on three sides, and
   // smaller on one side.
   const ExrPart windowed = {{{"A", true, {0.5F, 1, 1, 1}},
@@ -68,6 +69,7 @@ TEST_CASE("OpenEXR: colours of the display window are read as half floats") {
   CHECK(LightsOf(part) == std::vector<float>{0,  0, 0, 0, 0, 0, 0, 0, 10, 6, 2, 1, 0, 0, 0, 0,
                                              12, 8, 4, 1, 0, 0, 0, 0, 0,  0, 0, 0, 0, 0, 0, 0});
   CHECK(part->is_transparent);
+  CHECK(part->deep->bits == 16);
   const ExrPart grey = {{{"A", true, {1, 0.5F}}, {"Y", true, {2, 0.25F}}}, kTwo, kTwo};
   CHECK(LightsOf(Decode(Exr({grey}))) == std::vector<float>{2, 2, 2, 1, 0.25F, 0.25F, 0.25F, 0.5F});
 }
