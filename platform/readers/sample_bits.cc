@@ -78,7 +78,7 @@ StatedSamples StatedSamplesOf(const Bytes& file) {
 void NoteSampleBits(int bits, std::vector<std::string>* notes) {
   if (bits <= 8) return;
   notes->push_back("the pixels have " + std::to_string(bits) +
-                   " bits for each colour, of which the program reads and writes the upper 8");
+                   " bits for each colour, which become 8");
 }
 
 void NoteTransparency(bool is_transparent, std::vector<std::string>* notes) {
