@@ -237,6 +237,15 @@ void StoreRow(const Layout& layout, const float* values, DeepImage* deep, uint16
   }
 }
 
+// Adds a note if samples are neither colours nor alpha. Some programs write alpha like this.
+void NoteUnread(const Layout& layout, int channels, std::vector<std::string>* notes) {
+  const int unread = layout.samples - ColoursOf(layout) - (channels == 4 ? 1 : 0);
+  if (unread <= 0) return;
+  notes->push_back((unread == 1 ? "a sample" : std::to_string(unread) + " samples") +
+                   " of each pixel, which the file does not declare as colour or alpha, " +
+                   (unread == 1 ? "is" : "are") + " ignored");
+}
+
 Metadata ReadTiffMetadata(TIFF* tiff) {
   Metadata metadata;
   uint32_t size = 0;
@@ -284,6 +293,7 @@ Result<DecodedPicture> DecodeTiffPicture(const std::string& where, const Bytes& 
     StoreRow(layout, values.data(), &deep, deep.row(static_cast<int>(y)));
   }
   if (has_alpha && !deep.is_half && layout.alpha == EXTRASAMPLE_ASSOCALPHA) DivideByAlpha(&deep);
+  NoteUnread(layout, deep.channels, &picture.notes);
   picture.metadata = ReadTiffMetadata(tiff.get());
   CompleteDeep(layout.bits, &picture);
   return picture;

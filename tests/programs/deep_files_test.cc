@@ -444,6 +444,11 @@ TEST_CASE("TIFF: pictures of 8 and 16 bits and of floats are read, with alpha") 
   const std::string lights = LittleFloat(2) + LittleFloat(-0.5F) + LittleFloat(1e9F);
   CHECK(LightsOf(Decode(Tiff(1, 3, 32, {{kFormat, kFloat}}, lights))) ==
         std::vector<float>{2, -0.5F, 65504});
+  CHECK(Decode(Tiff(1, 2, 16, {{kExtra, kStraight}}, LittleWords({700, 9})))->notes.empty());
+  CHECK(Decode(Tiff(1, 4, 8, {{kExtra, 0}}, "\1\2\3\4"))->notes ==
+        std::vector<std::string>{
+            "a sample of each pixel, which the file does not declare as colour or "
+            "alpha, is ignored"});
   CHECK(LightsOf(Decode(Tiff(1, 4, 32, {{kExtra, kStraight}, {kFormat, kFloat}},
                              lights + LittleFloat(0.25F)))) ==
         std::vector<float>{0.5F, -0.125F, 65504, 0.25F});
