@@ -324,6 +324,18 @@ bool HasWideSamples(const Imf::Header& header, const std::vector<std::string>& n
   });
 }
 
+// Adds notes about stored pixels and a position that the picture does not keep.
+void NoteWindows(const Imath::Box2i& display, const ExrWindow& window,
+                 std::vector<std::string>* notes) {
+  if (std::min(window.left, window.top) < 0 || window.left + window.width > window.display_width ||
+      window.top + window.height > window.display_height) {
+    notes->push_back("the pixels outside of the display window are left out");
+  }
+  if (display.min == Imath::V2i(0, 0)) return;
+  notes->push_back("the display window starts at " + std::to_string(display.min.x) + "," +
+                   std::to_string(display.min.y) + ", and that of a new picture at 0,0");
+}
+
 Result<DecodedPicture> DecodeColours(const std::string& where, const Bytes& exr) {
   ExrInput stream(exr);
   Imf::MultiPartInputFile file(stream, 0, false);
@@ -359,6 +371,7 @@ Result<DecodedPicture> DecodeColours(const std::string& where, const Bytes& exr)
   picture.is_transparent = DropOpaqueAlpha(&deep);
   picture.image = ToImage(deep);
   picture.metadata.colours = ReadChromaticities(file.header(chosen.part));
+  NoteWindows(file.header(chosen.part).displayWindow(), *window, &picture.notes);
   if (pictures.size() > 1) {
     picture.notes.push_back("the file has " + std::to_string(pictures.size()) +
                             " pictures, of which the program reads " +

@@ -57,6 +57,7 @@ TEST_CASE("OpenEXR: colours of the display window are read as half floats") {
         std::vector<int>{255, 0, 255, 0, 137, 188});
   CHECK_FALSE(plain->is_transparent);
   CHECK(plain->deep->bits == 32);  // R
+  CHECK(plain->notes.empty());
   // Premultiplied colours; the display window is larger than the data window on three sides, and
   // smaller on one side.
   const ExrPart windowed = {{{"A", true, {0.5F, 1, 1, 1}},
@@ -70,6 +71,9 @@ TEST_CASE("OpenEXR: colours of the display window are read as half floats") {
                                              12, 8, 4, 1, 0, 0, 0, 0, 0,  0, 0, 0, 0, 0, 0, 0});
   CHECK(part->is_transparent);
   CHECK(part->deep->bits == 16);
+  REQUIRE(part->notes.size() == 2);
+  CHECK(part->notes[0] == "the pixels outside of the display window are left out");
+  CHECK(Contains(part->notes[1], "starts at 0,6,"));
   const ExrPart grey = {{{"A", true, {1, 0.5F}}, {"Y", true, {2, 0.25F}}}, kTwo, kTwo};
   CHECK(LightsOf(Decode(Exr({grey}))) == std::vector<float>{2, 2, 2, 1, 0.25F, 0.25F, 0.25F, 0.5F});
 }
