@@ -92,7 +92,8 @@ void AddDepthPictureOptions(Command* command, DepthOptions* options) {
            "otherwise guessed from the lower part of the picture",
            Choice<Near>({{"white", Near::kWhite}, {"black", Near::kBlack}}, &options->near)},
           {"--depth-unit", "m|mm|NUMBER|depth16|disparity",
-           "Unit of the values of a depth picture: distances in metres (m), millimetres "
+           "Unit of the values of a depth picture or of Z in an OpenEXR photo: distances in metres "
+           "(m), millimetres "
            "(mm) or multiples of a number of metres (0.0002 for maps that store 5000 for a "
            "metre), Android's DEPTH16, or disparities in pixels of the photo; default: no "
            "unit, so that only the order of the values matters",

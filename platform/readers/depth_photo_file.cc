@@ -249,6 +249,21 @@ Error EstimateDepth(const std::string& where, const DepthOptions& options, Depth
   return TakeDepthPicture(where, upright, std::move(*samples), photo);
 }
 
+// Follows the distances of the channel Z of an OpenEXR file, whose factor a unit determines.
+constexpr char kAnyFactor[] = ", correct up to a factor";
+
+// Gives the inverse distances of an OpenEXR file the unit of the options, and removes it from them.
+void TakeUnit(Span file, DepthOptions* options, DepthPhoto* photo) {
+  const Bytes signature(file.data, file.data + std::min<size_t>(file.size, 4));
+  if (!IsExr(signature) || options->unit != DepthUnit::kDistance || options->estimate) return;
+  for (float& value : photo->map.values) value = static_cast<float>(value / options->metres);
+  photo->meaning = MapMeaning::kInverseMetres;
+  options->unit = DepthUnit::kNone;
+  for (auto& [name, text] : photo->facts) {
+    if (name == "map") text.resize(text.rfind(kAnyFactor));
+  }
+}
+
 // Finds or estimates the depth of a decoded photo. The map and the right picture remain empty if
 // the photo has no depth.
 Error FindDepth(const std::string& path, Span file, const DepthOptions& options,
@@ -258,7 +273,9 @@ Error FindDepth(const std::string& path, Span file, const DepthOptions& options,
   const Near near = options.estimate ? Near::kUnknown : options.near;
   const bool has_matte = !files.matte.empty();
   if (files.depth.empty() && !photo->map.values.empty()) {
-    return CheckOptions(where, options, FileDepth::kMap, has_matte);
+    DepthOptions others = options;
+    TakeUnit(file, &others, photo);
+    return CheckOptions(where, others, FileDepth::kMap, has_matte);
   }
   photo->depth_path = files.depth;
   if (files.depth.empty() && !stream) {
@@ -348,7 +365,7 @@ Result<DepthPhoto> DecodeExrPhoto(const std::string& where, const Bytes& bytes, 
   photo.map = std::move(distances->map);
   Invert(&photo.map);
   photo.meaning = MapMeaning::kInverse;
-  TellMap("distances of the channel Z, correct up to a factor", &photo);
+  TellMap(std::string("distances of the channel Z") + kAnyFactor, &photo);
   return photo;
 }
 

@@ -18,6 +18,7 @@
 #include "platform/writers/exr.h"
 #include "tests/support/error_line.h"
 #include "tests/support/exr_file.h"
+#include "tests/support/temp_folder.h"
 
 namespace starfocus::exr_files_test {
 namespace {
@@ -130,6 +131,16 @@ TEST_CASE("OpenEXR: the channel Z is the depth of the picture in the same file")
   CHECK(std::isnan(photo->map.values[1]));
   CHECK(photo->map.values[2] == 1 / infinity);
   CHECK(ReadPhoto(Exr({Colours(1)}))->map.values.empty());
+  TempFolder folder;
+  const Bytes file = BytesOf(Exr({part}));
+  REQUIRE(WriteFile(folder.file("z.exr"), file) == "");
+  DepthOptions options;
+  options.unit = DepthUnit::kDistance;
+  options.metres = 2;
+  const DepthPhoto metres = ValueOf(ReadDepthPhotoFile(folder.file("z.exr"), options, {}));
+  CHECK(metres.meaning == MapMeaning::kInverseMetres);
+  CHECK(metres.map.values[0] == 1 / 8.0F);
+  CHECK(metres.facts.back().second == "3x1, distances of the channel Z");
 }
 
 TEST_CASE("OpenEXR: infinite samples are limited, and unusable light is counted") {
