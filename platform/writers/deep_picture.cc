@@ -90,6 +90,17 @@ Metadata MetadataOf(const DeepOptions& options, int32_t transfer, Notes* notes) 
   return metadata;
 }
 
+// Adds a note about metadata that files with this extension do not have.
+void NoteMetadata(const std::string& extension, const Metadata& metadata, Notes* notes) {
+  const bool is_tiff = IsTiffExtension(extension), is_png = extension == ".png";
+  const bool loses_exif = (is_tiff || extension == ".exr") && !metadata.exif.empty();
+  const bool loses_captions = !is_tiff && !is_png && !metadata.xmp.empty();
+  if (!loses_exif && !loses_captions) return;
+  notes->push_back(std::string("the file does not keep ") + (!loses_captions ? "EXIF"
+                                                             : loses_exif    ? "EXIF and captions"
+                                                                             : "captions"));
+}
+
 Result<Bytes> EncodeHalf(const std::string& path, const DeepImage& image,
                          const DeepOptions& options, Notes* notes) {
   const Metadata& metadata = options.picture.metadata;
@@ -140,6 +151,7 @@ Result<Bytes> EncodeDeepPicture(const std::string& path, const DeepImage& image,
   if (Error error = CheckPictureSize(path, image.width, image.height)) return error;
   if (Error error = CheckDeepEncoder(path)) return error;
   const std::string extension = FormatExtension(path);
+  NoteMetadata(extension, options.picture.metadata, notes);
   if (extension == ".exr") return EncodeHalf(path, image, options, notes);
   const DeepImage codes = CodesOf(image, options.transfer, notes);
   const Metadata metadata = MetadataOf(options, codes.transfer, notes);

@@ -530,7 +530,7 @@ TEST_CASE("writers: AVIF and HEIC keep codes within their bits, alpha and code p
   }
 }
 
-TEST_CASE("writers: refused names and transfers leave no file") {
+TEST_CASE("writers: refused names and transfers leave no file, and a note tells of lost EXIF") {
   TempFolder folder;
   std::vector<std::string> notes;
   const DeepImage image = DeepPattern(2, 2, 3);
@@ -542,6 +542,10 @@ TEST_CASE("writers: refused names and transfers leave no file") {
   }
   CHECK(Contains(CheckDeepOutput(folder.file("none/a.png")), "none"));
   if (CheckTiffEncoder("a.tif")) return;
+  DeepOptions options;
+  options.picture.metadata.exif = {'I', 'I'};
+  REQUIRE(WriteDeepImage(folder.file("exif.tif"), image, options, &notes) == "");
+  CHECK(notes == std::vector<std::string>{"the file does not keep EXIF"});
   DeepImage pq = image;
   pq.transfer = kPq;
   CHECK(Contains(WriteDeepImage(folder.file("a.tif"), pq, {}, &notes),
