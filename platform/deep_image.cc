@@ -146,20 +146,21 @@ std::string Describe(const ClippedSamples& clipped, const std::string& limit) {
 
 void CountUnusable(const DeepImage& deep, UnusableLight* counts) {
   if (!deep.is_half) return;
-  constexpr uint8_t kNaN = 1, kNegative = 2, kBright = 4;
-  const auto kinds = Table<uint8_t>([](uint16_t sample) {
+  constexpr int32_t kNaN = 1, kNegative = 2, kBright = 4, kNoAlpha = 8;
+  const auto kinds = Table<int32_t>([](uint16_t sample) {
     const float light = FloatOfHalf(sample);
-    if (std::isnan(light)) return kNaN;
-    if (light < 0) return kNegative;
-    return light > kMostLight ? kBright : uint8_t{0};
+    if (std::isnan(light)) return kNaN | kNoAlpha;
+    if (light < 0) return kNegative | kNoAlpha;
+    return (light > 1 ? kNoAlpha : 0) | (light > kMostLight ? kBright : 0);
   });
   const auto channels = static_cast<size_t>(deep.channels);
   for (size_t at = 0; at < deep.samples.size(); at += channels) {
     const uint16_t* pixel = &deep.samples[at];
-    const int kind = kinds[pixel[0]] | kinds[pixel[1]] | kinds[pixel[2]];
+    const int32_t kind = kinds[pixel[0]] | kinds[pixel[1]] | kinds[pixel[2]];
     if ((kind & kNaN) != 0) ++counts->not_a_number;
     if ((kind & kNegative) != 0) ++counts->negative;
     if ((kind & kBright) != 0) ++counts->too_bright;
+    if (channels == 4 && (kinds[pixel[3]] & kNoAlpha) != 0) ++counts->alpha;
   }
 }
 

@@ -47,16 +47,17 @@ struct ClippedSamples {
 // brightest sample that the target can store.
 std::string Describe(const ClippedSamples& clipped, const std::string& limit);
 
-// Numbers of pixels whose light the engine replaces.
+// Numbers of pixels whose light or alpha the engine replaces.
 struct UnusableLight {
   int64_t not_a_number = 0;  // Counts as black.
   int64_t negative = 0;      // Counts as black.
   int64_t too_bright = 0;    // Brighter than kMostLight, to which it is limited.
+  int64_t alpha = 0;         // Alpha below 0, which counts as 0, above 1, or not a number.
 };
 // The brightest light that the engine refocuses (starfocus/image.h).
 inline constexpr float kMostLight = 64;
 
-// Adds the pixels of half floats with such a colour to `counts`. Codes have none.
+// Adds the pixels of half floats with such samples to `counts`. Codes have none.
 void CountUnusable(const DeepImage& deep, UnusableLight* counts);
 
 // Converts codes to half floats of linear light, premultiplied with alpha.

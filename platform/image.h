@@ -43,6 +43,7 @@ struct DeepImage {
   int channels = 3;                            // 3: R, G and B; 4: also alpha
   bool is_half = false;                        // true: IEEE half floats
   int bits = 16;                               // bits of each sample in the file, from 8
+  bool is_multiplied = false;                  // true: the file has colours times alpha
   int32_t transfer = STARFOCUS_TRANSFER_SRGB;  // starfocus_transfer of integers
   std::vector<uint16_t> samples;               // rows without padding
 

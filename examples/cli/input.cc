@@ -227,7 +227,7 @@ struct CommandRun {
   }
 };
 
-// Prints a note about pixels whose light the engine replaces.
+// Prints a note about pixels whose light or alpha the engine replaces.
 void TellUnusable(const Capture& capture) {
   UnusableLight counts;
   for (const DeepImage& view : capture.light_field.deep) CountUnusable(view, &counts);
@@ -238,6 +238,7 @@ void TellUnusable(const Capture& capture) {
   add(counts.not_a_number, " pixels that are not a number count as black");
   add(counts.negative, " pixels with negative light count as black there");
   add(counts.too_bright, " pixels brighter than 64 times white are limited to that");
+  add(counts.alpha, " pixels with alpha that is not from 0 to 1 are limited to that");
   const size_t views = capture.light_field.deep.size();
   if (text.empty()) return;
   TellNote(capture.path, text + (views > 1 ? " (in " + std::to_string(views) + " views)" : ""));

@@ -353,7 +353,7 @@ Result<DecodedPicture> DecodeColours(const std::string& where, const Bytes& exr)
   DecodedPicture picture;
   picture.deep = DeepImage(window->display_width, window->display_height, has_alpha ? 4 : 3);
   DeepImage& deep = *picture.deep;
-  deep.is_half = true;
+  deep.is_half = deep.is_multiplied = true;
   deep.transfer = STARFOCUS_TRANSFER_NONE;
   const auto samples = static_cast<size_t>(deep.channels);
   ReadPart(&file, chosen.part, *window, chosen.channels,

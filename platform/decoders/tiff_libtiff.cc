@@ -210,14 +210,14 @@ bool CanHold(const Bytes& tiff, const Layout& layout) {
   return uint64_t{layout.width} * layout.height * pixel / kMostExpansion <= tiff.size();
 }
 
-// Converts a pixel of floats to half floats that are multiplied with alpha.
-void StoreHalf(const float* values, float alpha, bool is_straight, size_t channels, uint16_t* to) {
-  for (size_t c = 0; c < 3; ++c) {
-    const float light = values[c] * (is_straight ? alpha : 1);
-    // NaN stays, so that CountUnusable finds it.
-    to[c] = HalfOfFloat(std::isnan(light) ? light : std::clamp(light, -kLargestHalf, kLargestHalf));
+// Converts a pixel of floats to half floats that are multiplied with alpha. NaN and wrong alpha
+// stay, so that CountUnusable finds them.
+void StoreHalf(const float* values, bool is_straight, size_t channels, uint16_t* to) {
+  const float alpha = std::isnan(values[3]) ? 0 : std::clamp(values[3], 0.0F, 1.0F);
+  for (size_t c = 0; c < channels; ++c) {
+    const float value = values[c] * (is_straight && c < 3 ? alpha : 1);
+    to[c] = HalfOfFloat(std::isnan(value) ? value : std::clamp(value, -kLargestHalf, kLargestHalf));
   }
-  if (channels == 4) to[3] = HalfOfFloat(alpha);
 }
 
 // Converts a row of numbers, as ReadNumbers returns them.
@@ -229,8 +229,7 @@ void StoreRow(const Layout& layout, const float* values, DeepImage* deep, uint16
     const float pixel[] = {values[0], values[colours / 2], values[colours - 1],
                            channels == 4 ? values[colours] : 1.0F};
     if (deep->is_half) {
-      const float alpha = std::isnan(pixel[3]) ? 0 : std::clamp(pixel[3], 0.0F, 1.0F);
-      StoreHalf(pixel, alpha, layout.alpha == EXTRASAMPLE_UNASSALPHA, channels, to);
+      StoreHalf(pixel, layout.alpha == EXTRASAMPLE_UNASSALPHA, channels, to);
     } else {
       for (size_t c = 0; c < channels; ++c) to[c] = static_cast<uint16_t>(pixel[c] * scale);
     }
@@ -283,6 +282,7 @@ Result<DecodedPicture> DecodeTiffPicture(const std::string& where, const Bytes& 
   DeepImage& deep = *picture.deep;
   const NumberType type = layout.type();
   deep.is_half = type.kind == NumberKind::kFloat;
+  deep.is_multiplied = layout.alpha == EXTRASAMPLE_ASSOCALPHA;
   const size_t count = size_t{layout.width} * layout.samples;
   std::vector<uint8_t> row(
       std::max(static_cast<size_t>(TIFFScanlineSize(tiff.get())), count * type.bytes));

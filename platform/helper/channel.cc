@@ -130,9 +130,10 @@ void Pass(Channel* channel, std::optional<DeepImage>* deep) {
   channel->Value(&has_deep);
   if (!has_deep) return deep->reset();
   if (channel->direction() == Direction::kReceive) deep->emplace();
-  auto& [width, height, channels, is_half, bits, transfer, samples] = **deep;
+  auto& [width, height, channels, is_half, bits, is_multiplied, transfer, samples] = **deep;
   channel->Value(&channels);
   channel->Value(&is_half);
+  channel->Value(&is_multiplied);
   channel->Value(&bits);
   channel->Require(bits >= 8 && bits <= 32);
   channel->Value(&transfer);

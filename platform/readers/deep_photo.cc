@@ -86,12 +86,13 @@ Facts FactsOfLight(const LightField& light_field, const Metadata& metadata,
   facts.emplace_back("primaries",
                      has_unknown ? "those of the ICC profile" : PrimariesNameOf(colours));
   if (deep.channels == 4) {
-    facts.emplace_back("alpha", deep.is_half ? "premultiplied" : "not premultiplied");
+    facts.emplace_back("alpha", deep.is_multiplied ? "premultiplied" : "not premultiplied");
   }
   if (deep.is_half || IsHdr(deep.transfer)) {
     double largest = 0;
     for (const DeepImage& view : light_field.deep) largest = std::max(largest, LargestLight(view));
-    facts.emplace_back("headroom", Times(largest));
+    facts.emplace_back("headroom",
+                       Times(largest) + (largest > double{kMostLight} ? ", limited to 64" : ""));
   } else if (!gain_map.levels.empty()) {
     const double stops = *std::max_element(gain_map.max.begin(), gain_map.max.end());
     facts.emplace_back("headroom", "at most " + Times(std::exp2(std::max(stops, 0.0))));

@@ -222,6 +222,7 @@ TEST_CASE("facts: bits, transfer, primaries, alpha and headroom describe picture
                                        {"primaries", "BT.709"},
                                        {"alpha", "premultiplied"},
                                        {"headroom", "6.5 times white"}});
+  CHECK(facts(Exr({Colours(100)})).back().second == "100 times white, limited to 64");
 }
 
 TEST_CASE("orientation: the picture of 16 bits turns with the picture of 8 bits") {
@@ -445,6 +446,8 @@ TEST_CASE("TIFF: pictures of 8 and 16 bits and of floats are read, with alpha") 
   CHECK(LightsOf(Decode(Tiff(1, 3, 32, {{kFormat, kFloat}}, lights))) ==
         std::vector<float>{2, -0.5F, 65504});
   CHECK(Decode(Tiff(1, 2, 16, {{kExtra, kStraight}}, LittleWords({700, 9})))->notes.empty());
+  CHECK_FALSE(Decode(Tiff(1, 4, 8, {{kExtra, kStraight}}, "\1\2\3\4"))->deep->is_multiplied);
+  CHECK(Decode(Tiff(1, 4, 8, {{kExtra, kMultiplied}}, "\1\2\3\4"))->deep->is_multiplied);
   CHECK(Decode(Tiff(1, 4, 8, {{kExtra, 0}}, "\1\2\3\4"))->notes ==
         std::vector<std::string>{
             "a sample of each pixel, which the file does not declare as colour or "

@@ -163,6 +163,10 @@ TEST_CASE("OpenEXR: infinite samples are limited, and unusable light is counted"
   UnusableLight counts;
   CountUnusable(*photo->deep, &counts);
   CHECK(std::tuple(counts.not_a_number, counts.negative, counts.too_bright) == std::tuple(1, 1, 1));
+  CHECK(counts.alpha == 0);
+  const ExrPart covered = {{{"A", true, {-0.5F, 2}}, {"Y", true, {1, 1}}}, kTwo, kTwo};
+  CountUnusable(*ValueOf(ReadPhoto(Exr({covered}))).deep, &counts);
+  CHECK(counts.alpha == 2);
 }
 
 TEST_CASE("OpenEXR: depth, disparities and mattes are read from their channels") {
