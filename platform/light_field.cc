@@ -10,7 +10,6 @@
 #include "platform/deep_image.h"
 #include "platform/folder.h"
 #include "platform/helper/helper.h"
-#include "platform/icc_profile.h"
 #include "platform/image_io.h"
 #include "platform/levels.h"
 #include "platform/progress.h"
@@ -184,6 +183,12 @@ bool HasDisparity(const std::string& folder) {
 
 namespace {
 
+// Returns true if light is proportional to the 8-bit codes of a view. Half floats have renditions.
+bool IsLinearView(const Result<DecodedPicture>& view) {
+  const bool is_half = view->deep && view->deep->is_half;
+  return !is_half && TransferOf(ColoursOf(view->metadata)) == STARFOCUS_TRANSFER_NONE;
+}
+
 // Takes the deep pictures of the views, if there is any, and the colours of the first. Views of 8
 // bits are expanded. Codes of different transfers become half floats.
 void TakeDeep(std::vector<Result<DecodedPicture>>* views, LightField* light_field) {
@@ -193,11 +198,7 @@ void TakeDeep(std::vector<Result<DecodedPicture>>* views, LightField* light_fiel
     std::optional<DeepImage>& deep = (*views)[k]->deep;
     light_field->deep.push_back(deep ? std::move(*deep) : Widen(light_field->views[k], {}));
   }
-  const Metadata& metadata = views->front()->metadata;
-  light_field->deep_colours = metadata.colours;
-  if (metadata.colours.form.empty()) {
-    light_field->deep_colours = DescriptionOf(metadata.icc).value_or(ColourDescription());
-  }
+  light_field->deep_colours = ColoursOf(views->front()->metadata);
   const DeepImage& first = light_field->deep[0];
   const bool alike =
       std::all_of(light_field->deep.begin(), light_field->deep.end(), [&](const DeepImage& deep) {
@@ -228,6 +229,7 @@ Result<LightField> LoadViewFiles(const std::vector<ViewFile>& files, ThreadRunne
     Error error = CheckSize(files[k].path, view.width, view.height, result.views[0]);
     if (error) return error;
   }
+  result.is_linear = std::all_of(load.views.begin(), load.views.end(), IsLinearView);
   TakeDeep(&load.views, &result);
   return result;
 }

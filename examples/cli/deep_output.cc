@@ -9,7 +9,6 @@
 #include "examples/cli/input.h"
 #include "platform/decoders/deep.h"
 #include "platform/deep_image.h"
-#include "platform/icc_profile.h"
 #include "platform/image_io.h"
 #include "platform/readers/sample_bits.h"
 #include "platform/standard_stream.h"
@@ -42,10 +41,7 @@ bool IsTiff(const std::string& path) {
 void Deepen(const std::string& path, Capture* capture) {
   LightField& light_field = capture->light_field;
   if (!IsAlwaysDeep(path) || !light_field.deep.empty()) return;
-  const Metadata& metadata = capture->metadata;
-  light_field.deep_colours = metadata.icc.empty()
-                                 ? metadata.colours
-                                 : DescriptionOf(metadata.icc).value_or(ColourDescription());
+  light_field.deep_colours = ColoursOf(capture->metadata);
   if (!capture->gain_map.levels.empty() && !IsTiff(path)) {
     light_field.deep.push_back(ApplyGainMap(light_field.views[0], capture->gain_map));
     capture->gain_map = {};

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "platform/deep_image.h"
+#include "platform/icc_profile.h"
 
 namespace starfocus {
 
@@ -13,6 +14,11 @@ int32_t TransferOf(const ColourDescription& colours) {
   if (colours.transfer == kPq) return STARFOCUS_TRANSFER_PQ;
   if (colours.transfer == kHlg) return STARFOCUS_TRANSFER_HLG;
   return IsLinear(colours) ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
+}
+
+ColourDescription ColoursOf(const Metadata& metadata) {
+  if (metadata.colours.form == kCicpForm || !IsRgbProfile(metadata.icc)) return metadata.colours;
+  return DescriptionOf(metadata.icc).value_or(ColourDescription());
 }
 
 bool IsHdr(int32_t transfer) {
@@ -41,7 +47,7 @@ void DivideByAlpha(DeepImage* deep) {
 }
 
 void CompleteDeep(int bits, DecodedPicture* picture) {
-  const int32_t transfer = TransferOf(picture->metadata.colours);
+  const int32_t transfer = TransferOf(ColoursOf(picture->metadata));
   if (!picture->deep && IsHdr(transfer)) picture->deep = Widen(picture->image, {});
   if (!picture->deep) return;
   picture->bits = bits;

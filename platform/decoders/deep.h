@@ -16,6 +16,10 @@ namespace starfocus {
 // lacks, and codes of the narrow range, count as sRGB.
 int32_t TransferOf(const ColourDescription& colours);
 
+// Returns the colours of the codes of a file. The chunk cICP overrides an ICC profile, which
+// overrides other descriptions. The form is empty if the colours are unknown.
+ColourDescription ColoursOf(const Metadata& metadata);
+
 // Returns true if codes of the transfer need more than 8 bits: PQ and HLG.
 bool IsHdr(int32_t transfer);
 

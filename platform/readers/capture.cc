@@ -109,6 +109,7 @@ void TakePair(const std::string& path, const std::string& right, DepthPhoto* pho
   capture->light_field.positions = {{0, 0}, {1, 0}};
   capture->light_field.views.push_back(std::move(photo->picture));
   capture->light_field.views.push_back(std::move(photo->right));
+  capture->light_field.is_linear = photo->is_linear;
 }
 
 // Converts a fraction of the width or height, in [0, 1], to a pixel coordinate.
@@ -162,6 +163,7 @@ Result<Capture> OpenDirectory(const std::string& path, const CaptureOptions& opt
 // Keeps only the chosen views of a light field.
 void SelectViews(const std::vector<ViewFile>& chosen, LightField* light_field) {
   LightField result;
+  result.is_linear = light_field->is_linear;
   for (const ViewFile& file : chosen) {
     for (size_t k = 0; k < light_field->views.size(); ++k) {
       if (!SamePosition(light_field->positions[k], file.position)) continue;

@@ -10,7 +10,6 @@
 
 #include "platform/decoders/deep.h"
 #include "platform/deep_image.h"
-#include "platform/icc_profile.h"
 
 namespace starfocus {
 namespace {
@@ -29,11 +28,6 @@ std::string TransferName(const ColourDescription& colours, bool is_linear) {
   return name == "sRGB" ? name : name + ", decoded as sRGB";
 }
 
-// Returns the colours that an ICC profile describes. The form is empty if they are unknown.
-ColourDescription ColoursOf(const Bytes& icc) {
-  return DescriptionOf(icc).value_or(ColourDescription());
-}
-
 }  // namespace
 
 void TakePicture(DecodedPicture picture, DepthPhoto* photo) {
@@ -43,8 +37,7 @@ void TakePicture(DecodedPicture picture, DepthPhoto* photo) {
   std::move(picture.notes.begin(), picture.notes.end(), std::back_inserter(photo->notes));
   if (!photo->deep) return;
   const DeepImage& deep = *photo->deep;
-  photo->deep_colours = photo->metadata.colours;
-  if (photo->deep_colours.form.empty()) photo->deep_colours = ColoursOf(photo->metadata.icc);
+  photo->deep_colours = ColoursOf(photo->metadata);
   if (!deep.is_half && !IsHdr(deep.transfer)) return;
   const double largest = LargestLight(deep);
   // The rendition in 8 bits has the primaries of the file and the transfer of sRGB. A profile would
@@ -71,8 +64,8 @@ Facts FactsOfLight(const LightField& light_field, const Metadata& metadata,
   const bool is_deep = !light_field.deep.empty();
   const DeepImage none;
   const DeepImage& deep = is_deep ? light_field.deep[0] : none;
-  ColourDescription colours = is_deep ? light_field.deep_colours : metadata.colours;
-  if (colours.form.empty()) colours = ColoursOf(metadata.icc);
+  ColourDescription colours = is_deep ? light_field.deep_colours : ColourDescription();
+  if (colours.form.empty()) colours = ColoursOf(metadata);
   const bool has_unknown = colours.form.empty() && !metadata.icc.empty();
   Facts facts = {{"samples", std::to_string(is_deep ? deep.bits : 8) + " bits, " +
                                  (deep.is_half ? "floats" : "integers")}};

@@ -206,13 +206,22 @@ void ReadCodePoints(const heif_image_handle* handle, ColourDescription* colours)
   *colours = {"nclx", primaries, transfer};
 }
 
+// Reads the code points and, unless they are those of PQ or HLG, the ICC profile.
+void ReadColours(const heif_image_handle* handle, Metadata* metadata) {
+  ReadCodePoints(handle, &metadata->colours);
+  const size_t profile = heif_image_handle_get_raw_color_profile_size(handle);
+  if (profile == 0 || profile > kMostMetadata || IsHdr(TransferOf(metadata->colours))) return;
+  metadata->icc.resize(profile);
+  heif_image_handle_get_raw_color_profile(handle, metadata->icc.data());
+}
+
 // Decodes the picture to 8 bits and, if it has more bits, alpha, PQ or HLG, to codes of 16 bits. In
 // both cases libheif converts YCbCr to RGB, with its own rounding.
 Result<DecodedPicture> DecodeBoth(const std::string& where, const heif_image_handle* handle) {
   DecodedPicture picture;
-  ReadCodePoints(handle, &picture.metadata.colours);
+  ReadColours(handle, &picture.metadata);
   const int bits = heif_image_handle_get_luma_bits_per_pixel(handle);
-  const bool is_hdr = IsHdr(TransferOf(picture.metadata.colours));
+  const bool is_hdr = IsHdr(TransferOf(ColoursOf(picture.metadata)));
   if (bits > 8 || heif_image_handle_has_alpha_channel(handle) != 0) {
     Result<DeepImage> deep = DecodeCodes(where, handle);
     if (deep) picture.deep = std::move(*deep);
@@ -224,7 +233,7 @@ Result<DecodedPicture> DecodeBoth(const std::string& where, const heif_image_han
   return picture;
 }
 
-void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
+void ReadExifItem(const heif_image_handle* handle, DepthPhoto* photo) {
   Bytes exif = ReadMetadata(handle, "Exif", nullptr);
   // The first four bytes of the EXIF item are the offset of the TIFF header, counted from the fifth
   // byte.
@@ -248,12 +257,6 @@ void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
   std::vector<std::string>* const notes = photo->deep ? &photo->lost : &photo->notes;
   NoteSampleBits(heif_image_handle_get_luma_bits_per_pixel(handle), notes);
   NoteTransparency(heif_image_handle_has_alpha_channel(handle) != 0, notes);
-  const size_t profile = heif_image_handle_get_raw_color_profile_size(handle);
-  const bool is_rendition = photo->deep && IsHdr(photo->deep->transfer);
-  if (profile > 0 && profile <= kMostMetadata && !is_rendition) {
-    photo->metadata.icc.resize(profile);
-    heif_image_handle_get_raw_color_profile(handle, photo->metadata.icc.data());
-  }
   ChooseProfile(photo);
 }
 
@@ -450,7 +453,7 @@ Result<DepthPhoto> Read(const std::string& where, Span file, Near near) {
   Result<DecodedPicture> picture = DecodeBoth(where, raw);
   if (!picture) return picture.error();
   TakePicture(std::move(*picture), &photo);
-  ReadProfiles(raw, &photo);
+  ReadExifItem(raw, &photo);
   ReadCaptions(raw, &photo);
   photo.map_problem = ReadMap(where, raw, file.size, near, &photo).line();
   if (!photo.map_problem.empty()) photo.map = {};

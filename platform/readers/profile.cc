@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "platform/decoders/deep.h"
 #include "platform/icc_profile.h"
 
 namespace starfocus {
@@ -57,7 +58,10 @@ void ChooseProfile(DepthPhoto* photo) {
   ColourDescription* colours = &photo->metadata.colours;
   if (colours->form == kCicpForm) return ToProfile(photo);
   CheckProfile(photo);
-  if (!photo->metadata.icc.empty()) *colours = {};
+  if (!photo->metadata.icc.empty()) {
+    photo->is_linear = IsLinear(ColoursOf(photo->metadata));
+    *colours = {};
+  }
   if (!colours->form.empty()) ToProfile(photo);
 }
 

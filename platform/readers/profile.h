@@ -10,8 +10,8 @@ namespace starfocus {
 // Clears photo->metadata.icc if it is not a complete RGB profile. Replaces photo->metadata.colours
 // by an equivalent profile if the photo has no profile, or if the description overrides the profile
 // (cICP). If no profile can express the description, the description remains, and a note reports
-// that only PNG files keep it. Call the function after the function ReadExif, which may set a
-// description.
+// that only PNG files keep it. Sets photo->is_linear. Call the function after the function
+// ReadExif, which may set a description.
 void ChooseProfile(DepthPhoto* photo);
 
 }  // namespace starfocus

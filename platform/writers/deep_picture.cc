@@ -79,7 +79,10 @@ Metadata MetadataOf(const DeepOptions& options, int32_t transfer, Notes* notes) 
     return metadata;
   }
   // A profile that describes linear light needs no code points.
-  if (transfer == STARFOCUS_TRANSFER_NONE && !metadata.icc.empty()) return metadata;
+  if (transfer == STARFOCUS_TRANSFER_NONE && !metadata.icc.empty()) {
+    colours = {};
+    return metadata;
+  }
   NoteCurve(options, notes);
   const int primaries = PrimariesCodeOf(colours);
   if (primaries == ColourDescription::kUnspecified) {

@@ -533,6 +533,28 @@ TEST_CASE("writers: AVIF and HEIC keep codes within their bits, alpha and code p
   }
 }
 
+TEST_CASE("writers: codes of a linear profile stay linear light in all formats") {
+  TempFolder folder;
+  DeepImage image = DeepPattern(37, 5, 3);
+  image.transfer = kLinear;
+  DeepOptions options;
+  options.picture.metadata.icc = ProfileOf({"test", 1, 8});
+  ColourDescription& colours = options.picture.metadata.colours;
+  colours = {"gAMA", ColourDescription::kUnspecified, ColourDescription::kGiven};
+  colours.gamma = 100000;
+  for (const std::string name : {"a.png", "a.tif", "a.avif", "a.heic"}) {
+    if (CheckDeepEncoder(name) || !HasLibpng()) continue;
+    CAPTURE(name);
+    const Written written = WriteAndRead(folder, name, image, options);
+    CHECK(written.picture.deep->transfer == kLinear);
+    CHECK(written.picture.metadata.icc == options.picture.metadata.icc);
+    CHECK(written.notes.empty());
+    const std::string text(written.bytes.begin(), written.bytes.end());
+    CHECK(!Contains(text, "cICP"));
+    if (Contains(text, "nclx")) CHECK(Contains(text, "nclx" + Big(1, 2) + Big(8, 2)));
+  }
+}
+
 TEST_CASE("writers: refused names and transfers leave no file, and a note tells of lost EXIF") {
   TempFolder folder;
   std::vector<std::string> notes;

@@ -85,6 +85,19 @@ TEST_CASE("light_field: every star set is read back in order, as a whole or in p
   }
 }
 
+TEST_CASE("light_field: views with a linear profile are linear light") {
+  for (const int transfer : {8, 13}) {
+    TempFolder folder;
+    REQUIRE(Save(folder, Make(1, 7, 5)) == "");
+    const std::string path = folder.file(StarName(0) + ".png");
+    PictureOptions how;
+    how.metadata.icc = ProfileOf({"test", 1, transfer});
+    REQUIRE(WriteImage(path, photos::Plain(7, 5, 3), how) == "");
+    if (ValueOf(ReadPicture(path)).metadata.icc.empty()) return;  // a build without libpng
+    CHECK(ValueOf(Load(folder)).is_linear == (transfer == 8));
+  }
+}
+
 TEST_CASE("light_field: an engine gets the positions of the views") {
   LightField field = Make(3, 7, 5);
   test::Config config;

@@ -272,6 +272,21 @@ TEST_CASE("PNG: cICP, sRGB, gAMA and cHRM are kept as equivalent profiles") {
   CHECK(Read("a.png", file).metadata.icc == ProfileOf({"cICP", 12, 13}));
 }
 
+TEST_CASE("ICC: codes of a linear profile are linear light in all formats") {
+  for (const std::string name : {"a.png", "a.jpg", "a.webp"}) {
+    CAPTURE(name);
+    for (const int transfer : {8, 13}) {
+      PictureOptions how;
+      how.metadata.icc = ProfileOf({"test", 1, transfer});
+      const Result<Bytes> file = EncodePicture(name, Plain(2, 1, 9), how);
+      if (!file) continue;  // a build without libwebp
+      const DepthPhoto photo = Read(name, TextOf(*file));
+      if (photo.metadata.icc.empty()) continue;  // a build without libpng
+      CHECK(photo.is_linear == (transfer == 8));
+    }
+  }
+}
+
 TEST_CASE("PNG: PQ and HLG are decoded, and invalid or unusual descriptions are named in a note") {
   if (!HasProfiles()) return;
   for (const int transfer : {16, 18}) {
