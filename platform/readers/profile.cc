@@ -12,6 +12,10 @@ namespace {
 
 constexpr char kFact[] = "colour profile";
 
+std::string Describe(const ColourDescription& colours) {
+  return NameOf(colours) + " (" + colours.form + ")";
+}
+
 void CheckProfile(DepthPhoto* photo) {
   Bytes* icc = &photo->metadata.icc;
   if (icc->empty()) return;
@@ -23,11 +27,20 @@ void CheckProfile(DepthPhoto* photo) {
   if (!kept) icc->clear();
 }
 
+// Describes `colours`, which a profile expresses. If they are those of a rendition in sRGB,
+// describes the colours of the light.
+std::string FactOf(const DepthPhoto& photo, const ColourDescription& colours) {
+  if (!photo.deep || !(photo.deep->is_half || IsHdr(photo.deep->transfer))) {
+    return Describe(colours) + ", written as an ICC profile";
+  }
+  return Describe(photo.deep_colours);
+}
+
 // Replaces a description that a profile can express.
 void ToProfile(DepthPhoto* photo) {
   Metadata* metadata = &photo->metadata;
   const ColourDescription colours = metadata->colours;
-  const std::string what = NameOf(colours) + " (" + colours.form + ")";
+  const std::string what = Describe(colours);
   Bytes profile = ProfileOf(colours);
   if (IsSrgb(colours) || !profile.empty()) {
     metadata->colours = {};
@@ -35,7 +48,7 @@ void ToProfile(DepthPhoto* photo) {
     if (IsSrgb(colours)) return;
     photo->is_linear = IsLinear(colours);
     metadata->icc = std::move(profile);
-    photo->facts.emplace_back(kFact, what + ", written as an ICC profile");
+    photo->facts.emplace_back(kFact, FactOf(*photo, colours));
     return;
   }
   // Only code points of H.273 have a form in PNG files.

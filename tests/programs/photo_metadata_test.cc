@@ -295,6 +295,9 @@ TEST_CASE("PNG: PQ and HLG are decoded, and invalid or unusual descriptions are 
     CHECK(photo.deep->transfer ==
           (transfer == 16 ? STARFOCUS_TRANSFER_PQ : STARFOCUS_TRANSFER_HLG));
     CHECK(photo.deep_colours.transfer == transfer);
+    CHECK(photo.facts ==
+          Facts{{"colour profile", transfer == 16 ? "BT.2020, transfer of PQ (cICP)"
+                                                  : "BT.2020, transfer of HLG (cICP)"}});
     // The picture of 8 bits is a rendition in sRGB.
     CHECK(photo.metadata.icc == ProfileOf({"cICP", 9, 13}));
     CHECK(photo.metadata.colours.form.empty());
