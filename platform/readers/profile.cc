@@ -27,6 +27,15 @@ void CheckProfile(DepthPhoto* photo) {
   if (!kept) icc->clear();
 }
 
+// Sets photo->is_linear, and adds a note if the program does not decode the transfer of the codes.
+void JudgeTransfer(const ColourDescription& colours, DepthPhoto* photo) {
+  photo->is_linear = IsLinear(colours);
+  const std::string transfer = TransferNameOf(colours);
+  if (photo->is_linear || transfer == "sRGB") return;
+  photo->notes.push_back("the transfer " + transfer + " (" + colours.form +
+                         ") counts as that of sRGB");
+}
+
 // Describes `colours`, which a profile expresses. If they are those of a rendition in sRGB,
 // describes the colours of the light.
 std::string FactOf(const DepthPhoto& photo, const ColourDescription& colours) {
@@ -46,7 +55,7 @@ void ToProfile(DepthPhoto* photo) {
     metadata->colours = {};
     metadata->icc.clear();
     if (IsSrgb(colours)) return;
-    photo->is_linear = IsLinear(colours);
+    JudgeTransfer(colours, photo);
     metadata->icc = std::move(profile);
     photo->facts.emplace_back(kFact, FactOf(*photo, colours));
     return;
@@ -72,7 +81,7 @@ void ChooseProfile(DepthPhoto* photo) {
   if (colours->form == kCicpForm) return ToProfile(photo);
   CheckProfile(photo);
   if (!photo->metadata.icc.empty()) {
-    photo->is_linear = IsLinear(ColoursOf(photo->metadata));
+    JudgeTransfer(ColoursOf(photo->metadata), photo);
     *colours = {};
   }
   if (!colours->form.empty()) ToProfile(photo);

@@ -57,14 +57,6 @@ DeepImage CodesOf(const DeepImage& image, int32_t transfer, Notes* notes) {
   return codes;
 }
 
-// Adds a note if the curve of a profile was taken for that of sRGB.
-void NoteCurve(const DeepOptions& options, Notes* notes) {
-  const Metadata& metadata = options.picture.metadata;
-  const std::string curve = TransferNameOf(metadata.colours);
-  if (metadata.icc.empty() || curve == "sRGB" || IsLinear(metadata.colours)) return;
-  notes->push_back("the curve of the ICC profile, " + curve + ", counts as that of sRGB");
-}
-
 // Returns the metadata of a file of codes: sRGB has the description or the profile of the caller,
 // and other transfers have code points, which override a profile.
 Metadata MetadataOf(const DeepOptions& options, int32_t transfer, Notes* notes) {
@@ -83,7 +75,6 @@ Metadata MetadataOf(const DeepOptions& options, int32_t transfer, Notes* notes) 
     colours = {};
     return metadata;
   }
-  NoteCurve(options, notes);
   const int primaries = PrimariesCodeOf(colours);
   if (primaries == ColourDescription::kUnspecified) {
     notes->push_back("the file does not keep the primaries, which have no code point");
@@ -111,7 +102,6 @@ Result<Bytes> EncodeHalf(const std::string& path, const DeepImage& image,
     notes->push_back(
         "OpenEXR files do not keep the ICC profile, so that the colours count as BT.709");
   }
-  NoteCurve(options, notes);
   return EncodeExr(path, image.is_half ? image : ToHalf(image), metadata.colours);
 }
 

@@ -232,6 +232,7 @@ TEST_CASE("PNG: cICP, sRGB, gAMA and cHRM are kept as equivalent profiles") {
   const struct {
     std::string chunks;
     Bytes profile;
+    std::string unknown = {};  // transfer that the program does not decode
   } rows[] = {
       {"", {}},
       {srgb, {}},
@@ -243,12 +244,13 @@ TEST_CASE("PNG: cICP, sRGB, gAMA and cHRM are kept as equivalent profiles") {
       {Cicp(1, 13) + adobe + Gamma(100000), {}},
       {Cicp(12, 13), ProfileOf({"cICP", 12, 13})},
       {Cicp(12, 13) + srgb, ProfileOf({"cICP", 12, 13})},
-      {Cicp(9, 14), ProfileOf({"cICP", 9, 14})},
-      {Gamma(45455), ProfileOf({"gAMA", 1, kGiven, true, {}, 219997})},
+      {Cicp(9, 14), ProfileOf({"cICP", 9, 14}), "BT.2020 (cICP)"},
+      {Gamma(45455), ProfileOf({"gAMA", 1, kGiven, true, {}, 219997}), "gamma 2.20 (gAMA)"},
       {Gamma(100000), ProfileOf({"gAMA", 1, kGiven, true, {}, 100000})},
-      {Gamma(55556), ProfileOf({"gAMA", 1, kGiven, true, {}, 179998})},
+      {Gamma(55556), ProfileOf({"gAMA", 1, kGiven, true, {}, 179998}), "gamma 1.80 (gAMA)"},
       {adobe, ProfileOf({"cHRM", kGiven, 13, true, adobe_at})},
-      {adobe + Gamma(45455), ProfileOf({"cHRM", kGiven, kGiven, true, adobe_at, 219997})},
+      {adobe + Gamma(45455), ProfileOf({"cHRM", kGiven, kGiven, true, adobe_at, 219997}),
+       "gamma 2.20 (gAMA and cHRM)"},
       // Damaged cICP chunks are ignored.
       {Chunk("cICP", ""), {}},
       {Chunk("cICP", std::string(3, '\1')), {}},
@@ -259,7 +261,11 @@ TEST_CASE("PNG: cICP, sRGB, gAMA and cHRM are kept as equivalent profiles") {
     const DepthPhoto photo = Read("a.png", PngWith(row.chunks));
     CHECK(photo.metadata.icc == row.profile);
     CHECK(photo.metadata.colours.form.empty());
-    CHECK(photo.notes.empty());
+    std::vector<std::string> notes;
+    if (!row.unknown.empty()) {
+      notes = {"the transfer " + row.unknown + " counts as that of sRGB"};
+    }
+    CHECK(photo.notes == notes);
     CHECK(photo.is_linear == (row.chunks == Gamma(100000)));
     CHECK((photo.picture.pixels == std::vector<uint8_t>{1, 2, 3, 4, 5, 6}));
   }
@@ -295,6 +301,7 @@ TEST_CASE("PNG: PQ and HLG are decoded, and invalid or unusual descriptions are 
     CHECK(photo.deep->transfer ==
           (transfer == 16 ? STARFOCUS_TRANSFER_PQ : STARFOCUS_TRANSFER_HLG));
     CHECK(photo.deep_colours.transfer == transfer);
+    CHECK(photo.notes.empty());
     CHECK(photo.facts ==
           Facts{{"colour profile", transfer == 16 ? "BT.2020, transfer of PQ (cICP)"
                                                   : "BT.2020, transfer of HLG (cICP)"}});
