@@ -11,6 +11,7 @@
 namespace starfocus {
 namespace {
 
+constexpr char kProfileForm[] = "ICC profile";
 constexpr size_t kHeader = 128, kTag = 12;
 constexpr size_t kColourSpace = 16, kSignature = 36;  // offsets in bytes in the profile header
 
@@ -111,14 +112,27 @@ bool DescribeCurve(const IccElement& curve, ColourDescription* colours) {
   return true;
 }
 
+// Returns the code points of an element of the type cicpType (ICC.1:2022, 10.3) of PQ or HLG, which
+// curves cannot express.
+std::optional<ColourDescription> ReadHdr(const Bytes& icc) {
+  constexpr int kPq = 16, kHlg = 18;  // of H.273
+  const IccElement element = FindElement(icc, "cicp");
+  if (!element.is("cicp", 12)) return std::nullopt;
+  const int primaries = element.data[8], transfer = element.data[9];
+  if (transfer != kPq && transfer != kHlg) return std::nullopt;
+  return ColourDescription{kProfileForm, primaries, transfer, element.data[11] == 1};
+}
+
 }  // namespace
 
 std::optional<ColourDescription> DescriptionOf(const Bytes& icc) {
-  if (!IsRgbProfile(icc) || FindElement(icc, "A2B0").size > 0) return std::nullopt;
+  if (!IsRgbProfile(icc)) return std::nullopt;
+  if (std::optional<ColourDescription> hdr = ReadHdr(icc)) return hdr;
+  if (FindElement(icc, "A2B0").size > 0) return std::nullopt;
   const std::optional<Matrix> adaptation = AdaptationOf(icc);
   if (!adaptation || std::fabs(Determinant(*adaptation)) < 1e-3) return std::nullopt;
   const Matrix inverse = Inverse(*adaptation);
-  ColourDescription colours = {"ICC profile", ColourDescription::kGiven};
+  ColourDescription colours = {kProfileForm, ColourDescription::kGiven};
   constexpr const char* kNames[] = {"rXYZ", "gXYZ", "bXYZ"};
   for (size_t k = 0; k < 4; ++k) {
     const std::optional<Vector> adapted = k < 3 ? ReadXyz(icc, kNames[k]) : kD50;

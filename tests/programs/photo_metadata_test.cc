@@ -293,6 +293,32 @@ TEST_CASE("ICC: codes of a linear profile are linear light in all formats") {
   }
 }
 
+TEST_CASE("ICC: code points of PQ in a profile are decoded, or a note says that they are not") {
+  if (!HasProfiles()) return;
+  PictureOptions how;
+  Bytes& icc = how.metadata.icc;
+  icc = ProfileOf({"test", 1, 13});
+  // Replace the copyright by an element of code points.
+  const auto find = [&](const std::string& name) {
+    return std::search(icc.begin(), icc.end(), name.begin(), name.end());
+  };
+  constexpr char kName[] = "cicp";
+  const auto entry = std::copy_n(kName, 4, find("cprt"));
+  constexpr uint8_t kElement[] = {'c', 'i', 'c', 'p', 0, 0, 0, 0, 9, 16, 0, 1};
+  std::copy(std::begin(kElement), std::end(kElement), icc.begin() + (entry[2] << 8 | entry[3]));
+  const Image picture = Plain(2, 1, 9);
+  const DepthPhoto png = Read("a.png", TextOf(ValueOf(EncodePicture("a.png", picture, how))));
+  REQUIRE(png.deep);
+  CHECK(png.deep->transfer == STARFOCUS_TRANSFER_PQ);
+  CHECK(png.deep_colours.primaries == 9);
+  CHECK(png.metadata.icc == ProfileOf({"", 9, 13}));
+  CHECK(png.notes.empty());
+  const DepthPhoto jpeg = Read("a.jpg", TextOf(ValueOf(EncodePicture("a.jpg", picture, how))));
+  CHECK(jpeg.metadata.icc == icc);
+  CHECK(jpeg.notes ==
+        std::vector<std::string>{"the transfer PQ (ICC profile) counts as that of sRGB"});
+}
+
 TEST_CASE("PNG: PQ and HLG are decoded, and invalid or unusual descriptions are named in a note") {
   if (!HasProfiles()) return;
   for (const int transfer : {16, 18}) {
