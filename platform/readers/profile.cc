@@ -31,7 +31,8 @@ void CheckProfile(DepthPhoto* photo) {
 void JudgeTransfer(const ColourDescription& colours, DepthPhoto* photo) {
   photo->is_linear = IsLinear(colours);
   const std::string transfer = TransferNameOf(colours);
-  if (photo->is_linear || transfer == "sRGB") return;
+  // A gamma of 2.2 differs from the transfer of sRGB by less than 0.01 of the light of white.
+  if (photo->is_linear || transfer == "sRGB" || transfer.rfind("gamma 2.2", 0) == 0) return;
   photo->notes.push_back("the transfer " + transfer + " (" + colours.form +
                          ") counts as that of sRGB");
 }
