@@ -80,6 +80,10 @@ GstFlowReturn Fail(GstStarfocus* self, const char* problem) {
   return GST_FLOW_ERROR;
 }
 
+void Warn(GstStarfocus* self, const char* problem) {
+  GST_ELEMENT_WARNING(self, STREAM, FAILED, ("%s", problem), (nullptr));
+}
+
 // Prepares for frames that do not continue the earlier frames.
 void Restart(GstStarfocus* self) {
   self->refocuser.Restart();
@@ -254,8 +258,7 @@ gboolean SinkEvent(GstAggregator* aggregator, GstAggregatorPad* pad, GstEvent* e
     const bool is_set = SetCaps(self, pad, caps);
     gst_event_unref(event);
     if (!gst_pad_is_linked(GST_PAD(self->depth))) {
-      GST_ELEMENT_WARNING(self, STREAM, FAILED, ("waiting until the pad depth is linked"),
-                          (nullptr));
+      Warn(self, "waiting until the pad depth is linked");
     }
     return is_set ? TRUE : FALSE;
   }
