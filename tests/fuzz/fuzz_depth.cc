@@ -78,12 +78,14 @@ starfocus_disparity_output OutputOf(Rows<float>* map, Rows<uint8_t>* coverage) {
   return out;
 }
 
-// Checks that all values of the map are in the range of the configuration.
+// Checks that all values of the map are in the range of the configuration, rounded to floats.
 void CheckMap(const test::Config& config, const Rows<float>& map) {
+  const auto least = static_cast<float>(config.disparity_min);
+  const auto most = static_cast<float>(config.disparity_max);
   for (int32_t y = 0; y < config.height; ++y) {
     for (int32_t x = 0; x < config.width; ++x) {
       const float value = map.values[static_cast<size_t>(y) * map.stride + static_cast<size_t>(x)];
-      Must(value >= config.disparity_min && value <= config.disparity_max);
+      Must(value >= least && value <= most);
     }
   }
 }
